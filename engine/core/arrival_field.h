@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/core/ids.h"
+
+namespace lumenline {
+
+/// First arrival time T of a front that left one source (Antiga et al. 2003, eq. 5).
+struct ArrivalField {
+    EndpointId source;
+    std::vector<double> time;  ///< (V) T, dimensionless: cost 1/R [1/length] times length; +inf = unreached
+    std::size_t reached = 0;   ///< vertices with a finite time
+    /// Largest (T(v) - best update of v) / T(v) over all vertices after the march: how far the
+    /// field is from the fixed point of its update.
+    double residual = 0;
+};
+
+}  // namespace lumenline

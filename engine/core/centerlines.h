@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/ids.h"
+#include "engine/core/vec3.h"
+
+namespace lumenline {
+
+/// Polylines with one value per point, all lines in one array (ragged: offsets + flat values).
+struct PathLines {
+    std::vector<std::uint32_t> offsets;  ///< (L+1)
+    std::vector<Vec3> points;            ///< (Q) on the Voronoi complex [length]
+    std::vector<double> ball_radius;     ///< (Q) R [length]
+    std::vector<double> abscissa;        ///< (Q) arc length of the path from its source [length]
+    std::vector<double> line_abscissa;   ///< (Q) abscissa of the final line's point it corresponds to [length]
+};
+
+/// Centerlines of one model. Points run from source to target; the lines end in the planes of
+/// their openings (or at the anchors of given points).
+struct Centerlines {
+    std::vector<std::uint32_t> offsets;  ///< (L+1) into the arrays below
+    std::vector<Vec3> points;            ///< (K) [length]
+    std::vector<double> ball_radius;     ///< (K) of the Voronoi ball [length]
+    std::vector<double> clearance;       ///< (K) distance to the triangulated surface [length]
+    std::vector<double> radius;          ///< (K) best estimate of the maximal inscribed ball's radius [length]
+    std::vector<double> abscissa;        ///< (K) arc length from the line's first point [length]
+    std::vector<EndpointId> source;      ///< (L)
+    std::vector<EndpointId> target;      ///< (L)
+    PathLines path;                      ///< (L lines) the descent paths on the complex
+
+    [[nodiscard]] std::size_t line_count() const { return source.size(); }
+};
+
+}  // namespace lumenline

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/ids.h"
+#include "engine/core/vec3.h"
+
+namespace lumenline {
+
+enum class EndpointKind : std::uint8_t { kBoundary, kPoint };
+enum class EndpointRole : std::uint8_t { kInlet, kOutlet };
+
+std::string_view kind_name(EndpointKind kind);  ///< "boundary" | "point"
+std::string_view role_name(EndpointRole role);  ///< "inlet" | "outlet"
+
+/// An arrival time fixed before the march, or the cost of a step onto the complex.
+struct Seed {
+    VoronoiVertexId vertex;
+    double time = 0;  ///< >= 0, unit of the field it seeds
+};
+
+/// An end of the vessel tree. The inlet is the tree's root, whatever the direction of flow.
+struct Endpoint {
+    Vec3 point;         ///< centre of the opening, or the given point [length]
+    Vec3 normal;        ///< unit, out of the lumen; zero for a given point
+    double radius = 0;  ///< of the opening's circle of equal area, or the ball radius at a given point [length]
+    EndpointKind kind = EndpointKind::kBoundary;
+    EndpointRole role = EndpointRole::kOutlet;
+    OpeningId opening;  ///< none for a given point
+
+    Vec3 anchor;                    ///< the point on the complex where lines start or end [length]
+    double anchor_radius = 0;       ///< ball radius there [length]
+    VoronoiVertexId anchor_vertex;  ///< nearest vertex of the polygon that holds the anchor
+    std::vector<Seed> seeds;        ///< vertices around the anchor with the exact cost of reaching them from it
+};
+
+using Endpoints = std::vector<Endpoint>;
+
+}  // namespace lumenline

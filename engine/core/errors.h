@@ -1,0 +1,62 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace lumenline {
+
+/// The stages of one model, in the order in which it passes them.
+enum class Stage { kLoad, kCondition, kVoronoi, kEndpoints, kEikonal, kTrace, kArchive };
+
+inline constexpr int kStageCount = 7;
+
+/// Lower-case name of a stage, as written in the archive.
+std::string_view stage_name(Stage stage);
+
+/// Stable codes of everything that makes a model fail. The archive carries their names
+/// (`error_name`); a code keeps its name for good.
+enum class ErrorCode {
+    kFileUnreadable,     ///< cannot be opened or read
+    kFileFormat,         ///< not of the format it claims, or truncated
+    kNoSurface,          ///< no triangle left
+    kBadCoordinate,      ///< NaN, infinity
+    kNonManifold,        ///< cannot be made an oriented manifold
+    kOpenBoundary,       ///< a boundary loop that cannot be capped
+    kNotClosed,          ///< not closed after capping
+    kNoVolume,           ///< encloses no volume
+    kNestedComponents,   ///< a component inside another one
+    kTooLarge,           ///< more sites or triangles than 32-bit indices hold
+    kNoLumen,            ///< no Voronoi vertex inside
+    kEndpointsMissing,   ///< neither openings nor given points
+    kEndpointOutside,    ///< a given point lies outside of the lumen
+    kEndpointAmbiguous,  ///< a given point lies between two branches
+    kNoInlet,            ///< no source
+    kNoOutlet,           ///< no target
+    kNoSeed,             ///< a march without a start
+    kTargetUnreached,    ///< no path from any source to a target
+    kNoLineTraced,       ///< not one target could be traced
+    kArchiveWrite,       ///< the model file could not be written
+    kInterrupted,        ///< the run was stopped
+    kOutOfMemory,        ///< allocation failed
+    kInternal,           ///< a broken promise of ours
+};
+
+/// Stable snake_case name of a code, as written in the archive.
+std::string_view error_name(ErrorCode code);
+
+/// Unusable input. `what()` is one sentence: what is wrong, where, the measured value and its
+/// limit where there is one, what to do.
+class StageError : public std::runtime_error {
+public:
+    StageError(Stage stage, ErrorCode code, const std::string& sentence);
+
+    [[nodiscard]] Stage stage() const { return stage_; }
+    [[nodiscard]] ErrorCode code() const { return code_; }
+
+private:
+    Stage stage_;
+    ErrorCode code_;
+};
+
+}  // namespace lumenline

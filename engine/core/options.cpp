@@ -1,0 +1,51 @@
+#include "engine/core/options.h"
+
+#include <array>
+
+#include "engine/core/text.h"
+
+namespace lumenline {
+
+std::string_view mode_name(EndpointMode mode) {
+    static constexpr std::array<std::string_view, 3> kNames{"auto", "boundaries", "points"};
+    return kNames.at(static_cast<std::size_t>(mode));
+}
+
+std::string_view refinement_name(Refinement refinement) { return refinement == Refinement::kNone ? "none" : "path"; }
+
+std::string_view pairs_name(Pairs pairs) { return pairs == Pairs::kNearest ? "nearest" : "all"; }
+
+namespace {
+
+/// Raised whenever a change of a stage's algorithm can change its result.
+constexpr std::string_view kAlgorithmVersions =
+    "condition.version=1\nvoronoi.version=1\nendpoints.version=1\neikonal.version=1\ntrace.version=1\n";
+
+std::string points_text(const std::vector<Vec3>& points) {
+    std::string text;
+    for (const Vec3& p : points) text += exact_text(p.x) + "," + exact_text(p.y) + "," + exact_text(p.z) + ";";
+    return text;
+}
+
+}  // namespace
+
+std::string canonical_text(const ModelTask& task) {
+    const PipelineOptions& o = task.options;
+    std::string text(kAlgorithmVersions);
+    auto line = [&text](std::string_view key, std::string_view value) {
+        text.append(key).append("=").append(value).append("\n");
+    };
+    line("scale", exact_text(task.scale));
+    line("condition.weld_tolerance", exact_text(o.condition.weld_tolerance));
+    line("condition.extension_radii", exact_text(o.condition.extension_radii));
+    line("condition.check_self_intersections", o.condition.check_self_intersections ? "true" : "false");
+    line("voronoi.merge_tolerance", exact_text(o.voronoi.merge_tolerance));
+    line("endpoints.mode", mode_name(o.endpoints.mode));
+    line("endpoints.inlets", points_text(o.endpoints.inlets));
+    line("endpoints.outlets", points_text(o.endpoints.outlets));
+    line("centerlines.refine", refinement_name(o.trace.refine));
+    line("centerlines.pairs", pairs_name(o.trace.pairs));
+    return text;
+}
+
+}  // namespace lumenline
