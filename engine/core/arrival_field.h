@@ -12,8 +12,8 @@ struct ArrivalField {
     EndpointId source;
     std::vector<double> time;  ///< (V) T, dimensionless: cost 1/R [1/length] times length; +inf = unreached
     std::size_t reached = 0;   ///< vertices with a finite time
-    /// Largest (T(v) - best update of v) / T(v) over all vertices after the march: how far the
-    /// field is from the fixed point of its update.
+    /// Largest |T(v) - U(v)| / T(v), U(v) the best update of v from its polygons: how far the field is
+    /// from the fixed point of its update.
     double residual = 0;
 };
 

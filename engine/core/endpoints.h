@@ -30,10 +30,11 @@ struct Endpoint {
     EndpointRole role = EndpointRole::kOutlet;
     OpeningId opening;  ///< none for a given point
 
-    Vec3 anchor;                    ///< the point on the complex where lines start or end [length]
-    double anchor_radius = 0;       ///< ball radius there [length]
-    VoronoiVertexId anchor_vertex;  ///< nearest vertex of the polygon that holds the anchor
-    std::vector<Seed> seeds;        ///< vertices around the anchor with the exact cost of reaching them from it
+    Vec3 anchor;                             ///< the point on the complex where lines start or end [length]
+    double anchor_radius = 0;                ///< ball radius there [length]
+    VoronoiVertexId anchor_vertex;           ///< nearest vertex of the polygon that holds the anchor
+    std::vector<PolygonId> anchor_polygons;  ///< polygons that hold the anchor
+    std::vector<Seed> seeds;  ///< vertices around the anchor with the exact cost of reaching them from it
 };
 
 using Endpoints = std::vector<Endpoint>;

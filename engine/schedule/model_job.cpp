@@ -1,0 +1,134 @@
+#include "engine/schedule/model_job.h"
+
+#include <chrono>
+#include <new>
+#include <utility>
+
+#include "engine/condition/condition.h"
+#include "engine/endpoints/endpoints.h"
+#include "engine/trace/trace.h"
+#include "engine/voronoi/voronoi.h"
+
+namespace lumenline {
+
+namespace {
+
+Failure describe(Stage stage, const std::exception& thrown) {
+    if (const auto* error = dynamic_cast<const StageError*>(&thrown))
+        return {error->stage(), error->code(), error->what()};
+    if (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr)
+        return {stage, ErrorCode::kOutOfMemory,
+                "memory ran out in this stage: give the run more memory or fewer models in flight"};
+    return {stage, ErrorCode::kInternal,
+            std::string("internal error, please report it with this model: ") + thrown.what()};
+}
+
+}  // namespace
+
+ModelJob::ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled)
+    : task_(task), make_context_(std::move(make_context)), cancelled_(cancelled) {
+    record_.identity = task.identity;
+}
+
+void ModelJob::run(Stage stage, Diagnostics& findings, std::optional<Failure>& failure, double& seconds,
+                   const std::function<void(StageContext&)>& body) const {
+    const auto start = std::chrono::steady_clock::now();
+    const std::unique_ptr<StageContext> context =
+        make_context_ ? make_context_(stage) : std::make_unique<StageContext>(stage, cancelled_);
+    try {
+        context->check_cancelled();
+        body(*context);
+    } catch (const std::exception& thrown) {
+        failure = describe(stage, thrown);
+    }
+    findings.insert(findings.end(), context->diagnostics().begin(), context->diagnostics().end());
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void ModelJob::run(Stage stage, const std::function<void(StageContext&)>& body) {
+    if (failed()) return;
+    run(stage, record_.diagnostics, record_.failure, record_.facts.stage_seconds.at(static_cast<std::size_t>(stage)),
+        body);
+}
+
+void ModelJob::load(const Loader& loader) {
+    run(Stage::kLoad, [&](StageContext&) {
+        soup_ = loader(task_);
+        record_.identity.source_sha256 = soup_.source_sha256;
+    });
+}
+
+void ModelJob::condition() {
+    run(Stage::kCondition, [&](StageContext& context) {
+        record_.surface = std::make_shared<const Surface>(condition_surface(soup_, task_.options.condition, context));
+    });
+    soup_ = {};
+}
+
+void ModelJob::build_complex() {
+    run(Stage::kVoronoi, [&](StageContext& context) {
+        record_.complex =
+            std::make_shared<const VoronoiComplex>(build_voronoi(*record_.surface, task_.options.voronoi, context));
+    });
+}
+
+void ModelJob::find_endpoints() {
+    run(Stage::kEndpoints, [&](StageContext& context) {
+        record_.endpoints = std::make_shared<const Endpoints>(
+            lumenline::find_endpoints(*record_.surface, *record_.complex, task_.options.endpoints, context));
+        for (std::size_t i = 0; i < record_.endpoints->size(); ++i)
+            if ((*record_.endpoints)[i].role == EndpointRole::kInlet)
+                sources_.push_back({EndpointId(i), {}, {}, {}, 0});
+    });
+    sources_left_ = sources_.size();
+}
+
+void ModelJob::solve(std::size_t source, EikonalWorkspace& work) {
+    Source& s = sources_[source];
+    run(Stage::kEikonal, s.diagnostics, s.failure, s.seconds, [&](StageContext& context) {
+        ArrivalField field = solve_eikonal(*record_.complex, (*record_.endpoints)[at(s.endpoint)].seeds, work, context);
+        field.source = s.endpoint;
+        s.field = std::make_shared<const ArrivalField>(std::move(field));
+    });
+}
+
+void ModelJob::join_sources() {
+    for (Source& s : sources_) {
+        record_.facts.stage_seconds.at(static_cast<std::size_t>(Stage::kEikonal)) += s.seconds;
+        record_.diagnostics.insert(record_.diagnostics.end(), s.diagnostics.begin(), s.diagnostics.end());
+        if (s.failure && !record_.failure) record_.failure = s.failure;
+        if (s.field) record_.fields.push_back(s.field);
+    }
+}
+
+void ModelJob::trace() {
+    if (failed()) return;
+    join_sources();
+    run(Stage::kTrace, [&](StageContext& context) {
+        record_.centerlines = std::make_shared<const Centerlines>(trace_centerlines(
+            *record_.surface, *record_.complex, *record_.endpoints, record_.fields, task_.options.trace, context));
+    });
+}
+
+ModelRecord ModelJob::take() {
+    record_.status = ModelStatus::kOk;
+    for (const Diagnostic& d : record_.diagnostics)
+        if (d.severity != Severity::kNote) record_.status = ModelStatus::kWarning;
+    if (record_.failure) record_.status = ModelStatus::kFailed;
+    for (const double s : record_.facts.stage_seconds) record_.facts.total_seconds += s;
+    return std::move(record_);
+}
+
+ModelRecord process_model(const ModelTask& task, const Loader& loader) {
+    ModelJob job(task, nullptr, nullptr);
+    EikonalWorkspace work;
+    job.load(loader);
+    job.condition();
+    job.build_complex();
+    job.find_endpoints();
+    for (std::size_t i = 0; i < job.source_count(); ++i) job.solve(i, work);
+    job.trace();
+    return job.take();
+}
+
+}  // namespace lumenline

@@ -1,0 +1,208 @@
+// The graph:
+//
+//   admission -> load -> condition -> voronoi -> endpoints -> fan out --> eikonal (per source) --> trace -> writer
+//       ^                                                        \__ failed: no sources ____________/         |
+//       |_______________________________________ release ____________________________________________________|
+//
+// Admission is a serial node that holds the queue: it lets a model in for every one that leaves, so
+// no token can be lost between a failure and its release. The sources of a model count down; the
+// last one sends it on. Bodies never throw: an exception that leaves a node cancels the graph, and
+// with it every other model. The graph is built inside its arena, or it would run on one thread.
+#include "engine/schedule/run_models.h"
+
+#include <sys/resource.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/flow_graph.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+
+namespace lumenline {
+
+namespace {
+
+namespace flow = tbb::flow;
+using JobPtr = std::shared_ptr<ModelJob>;
+using SourceOfJob = std::pair<JobPtr, std::size_t>;
+
+/// Stage surroundings whose loops run on the arena's threads. Waiting for a loop takes no other work:
+/// a stage must not find itself inside another model's.
+class ParallelContext : public StageContext {
+public:
+    using StageContext::StageContext;
+
+    void parallel_for(std::size_t count, std::size_t grain,
+                      const std::function<void(std::size_t, std::size_t)>& body) const override {
+        const std::size_t chunks = (count + grain - 1) / grain;
+        tbb::this_task_arena::isolate([&] {
+            tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+                check_cancelled();
+                body(chunk * grain, std::min((chunk + 1) * grain, count));
+            });
+        });
+    }
+};
+
+double peak_resident_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+class CohortGraph {
+public:
+    CohortGraph(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,
+                const Sink& sink, RunReport& report)
+        : tasks_(tasks),
+          cancelled_(options.cancelled),
+          loader_(loader),
+          sink_(sink),
+          report_(report),
+          admission_(graph_, flow::serial, [this](int change, auto& ports) { admit(change, ports); }),
+          load_(graph_, flow::unlimited,
+                [this](JobPtr job) {
+                    job->load(loader_);
+                    return job;
+                }),
+          condition_(graph_, flow::unlimited,
+                     [](JobPtr job) {
+                         job->condition();
+                         return job;
+                     }),
+          voronoi_(graph_, flow::unlimited,
+                   [](JobPtr job) {
+                       job->build_complex();
+                       return job;
+                   }),
+          endpoints_(graph_, flow::unlimited,
+                     [](JobPtr job) {
+                         job->find_endpoints();
+                         return job;
+                     }),
+          fan_out_(graph_, flow::unlimited, [](const JobPtr& job, auto& ports) { fan_out(job, ports); }),
+          eikonal_(graph_, flow::unlimited, [this](const SourceOfJob& source, auto& ports) { solve(source, ports); }),
+          trace_(graph_, flow::unlimited,
+                 [](JobPtr job) {
+                     job->trace();
+                     return job;
+                 }),
+          writer_(graph_, flow::serial, [this](const JobPtr& job) { return write(*job); }) {
+        flow::make_edge(flow::output_port<0>(admission_), load_);
+        flow::make_edge(load_, condition_);
+        flow::make_edge(condition_, voronoi_);
+        flow::make_edge(voronoi_, endpoints_);
+        flow::make_edge(endpoints_, fan_out_);
+        flow::make_edge(flow::output_port<0>(fan_out_), eikonal_);
+        flow::make_edge(flow::output_port<1>(fan_out_), trace_);
+        flow::make_edge(flow::output_port<0>(eikonal_), trace_);
+        flow::make_edge(trace_, writer_);
+        flow::make_edge(writer_, admission_);
+    }
+
+    void run(int in_flight) {
+        admission_.try_put(in_flight);
+        graph_.wait_for_all();
+        report_.not_started = tasks_.size() - next_;
+        if (sink_failure_) std::rethrow_exception(sink_failure_);
+        const std::size_t known =
+            report_.ok + report_.warning + report_.failed + report_.interrupted + report_.not_started;
+        if (known != tasks_.size())
+            throw std::logic_error("internal error: a model was lost on its way through the graph");
+    }
+
+private:
+    using Admission = flow::multifunction_node<int, std::tuple<JobPtr>>;
+    using FanOut = flow::multifunction_node<JobPtr, std::tuple<SourceOfJob, JobPtr>>;
+    using Solver = flow::multifunction_node<SourceOfJob, std::tuple<JobPtr>>;
+    using StageNode = flow::function_node<JobPtr, JobPtr>;
+
+    [[nodiscard]] bool stopped() const { return sink_failed_ || (cancelled_ != nullptr && cancelled_->load()); }
+
+    /// Lets `places` more models in.
+    void admit(int places, Admission::output_ports_type& ports) {
+        for (; places > 0 && next_ < tasks_.size() && !stopped(); --places) {
+            const auto context = [this](Stage stage) { return std::make_unique<ParallelContext>(stage, cancelled_); };
+            std::get<0>(ports).try_put(std::make_shared<ModelJob>(tasks_[next_++], context, cancelled_));
+        }
+    }
+
+    static void fan_out(const JobPtr& job, FanOut::output_ports_type& ports) {
+        if (job->failed()) {
+            std::get<1>(ports).try_put(job);
+            return;
+        }
+        for (std::size_t i = 0, n = job->source_count(); i < n; ++i) std::get<0>(ports).try_put({job, i});
+    }
+
+    void solve(const SourceOfJob& source, Solver::output_ports_type& ports) {
+        source.first->solve(source.second, workspaces_.local());
+        if (source.first->last_source_done()) std::get<0>(ports).try_put(source.first);
+    }
+
+    /// Hands the record on and frees its place.
+    int write(ModelJob& job) {
+        const bool interrupted = job.interrupted();
+        ModelRecord record = job.take();
+        record.facts.peak_resident_bytes = peak_resident_bytes();
+        record.facts.threads = report_.threads;
+        if (interrupted) {
+            ++report_.interrupted;
+            return 1;
+        }
+        ++(record.status == ModelStatus::kOk        ? report_.ok
+           : record.status == ModelStatus::kWarning ? report_.warning
+                                                    : report_.failed);
+        if (sink_failed_) return 1;
+        try {
+            sink_(std::move(record));
+        } catch (...) {
+            sink_failure_ = std::current_exception();
+            sink_failed_ = true;
+        }
+        return 1;
+    }
+
+    std::span<const ModelTask> tasks_;
+    const std::atomic<bool>* cancelled_;
+    const Loader& loader_;
+    const Sink& sink_;
+    RunReport& report_;
+    std::size_t next_ = 0;
+    std::exception_ptr sink_failure_;
+    std::atomic<bool> sink_failed_{false};
+    tbb::enumerable_thread_specific<EikonalWorkspace> workspaces_;
+    flow::graph graph_;
+    Admission admission_;
+    StageNode load_, condition_, voronoi_, endpoints_;
+    FanOut fan_out_;
+    Solver eikonal_;
+    StageNode trace_;
+    flow::function_node<JobPtr, int> writer_;
+};
+
+}  // namespace
+
+int available_threads() { return tbb::info::default_concurrency(); }
+
+RunReport run_models(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,
+                     const Sink& sink) {
+    const auto start = std::chrono::steady_clock::now();
+    RunReport report;
+    report.threads = options.threads > 0 ? options.threads : available_threads();
+    const int in_flight = options.models_in_flight > 0 ? options.models_in_flight : 2 * report.threads + 1;
+    tbb::task_arena arena(report.threads);
+    arena.execute([&] {
+        CohortGraph graph(tasks, options, loader, sink, report);
+        graph.run(in_flight);
+    });
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+}  // namespace lumenline

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "engine/core/model_record.h"
+#include "engine/core/options.h"
+#include "engine/schedule/model_job.h"
+
+namespace lumenline {
+
+/// Options of run_models. They never change a result.
+struct ScheduleOptions {
+    int threads = 0;                               ///< 0 = all cores this process may use
+    int models_in_flight = 0;                      ///< models in memory at once; 0 = one more than twice the threads
+    const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to stop the run
+};
+
+/// Takes a finished record, in the order of completion; called by one thread at a time. What it
+/// throws ends the run.
+using Sink = std::function<void(ModelRecord&&)>;
+
+/// What became of the models of a run.
+struct RunReport {
+    std::size_t ok = 0, warning = 0, failed = 0;  ///< handed to the sink
+    std::size_t interrupted = 0;                  ///< started, but the run was stopped
+    std::size_t not_started = 0;                  ///< the run was stopped before
+    double seconds = 0;
+    int threads = 1;
+};
+
+/// Computes all models on a oneTBB flow graph: a node per stage, a task per source, a bound on the
+/// models in flight, one serial writer. A model that fails is a record with its failure and harms no
+/// other. Results do not depend on the number of threads.
+/// @throws std::logic_error if a model got lost (a broken promise of ours), and what the sink throws
+RunReport run_models(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,
+                     const Sink& sink);
+
+/// The number of threads that `threads` = 0 stands for.
+int available_threads();
+
+}  // namespace lumenline

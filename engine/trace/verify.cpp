@@ -1,0 +1,56 @@
+// A segment stays inside when the balls of its ends' clearances cover it; else it is halved. Rounding
+// of the input moves balls by about its own size: the tolerance on R is 1e-6 R plus twice the
+// distance within which the complex merges vertices.
+#include "engine/trace/verify.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumenline {
+
+LineVerifier::LineVerifier(const Surface& surface)
+    : surface_(surface), inside_(surface.points, surface.triangles), distance_(surface.points, surface.triangles) {}
+
+SurfaceDistance::Nearest LineVerifier::nearest(Vec3 x, SurfaceDistance::Nearest& last) const {
+    return last = distance_.nearest(x, last.point, last.triangle);
+}
+
+bool LineVerifier::segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
+                                  SurfaceDistance::Nearest& last) const {
+    if (distance(a, b) <= clearance_a + clearance_b) return true;
+    if (depth == 0) return false;
+    const Vec3 middle = lerp(a, b, 0.5);
+    if (!inside_.inside(middle)) return false;
+    const double clearance = nearest(middle, last).distance;
+    return segment_inside(a, middle, clearance_a, clearance, depth - 1, last) &&
+           segment_inside(middle, b, clearance, clearance_b, depth - 1, last);
+}
+
+LineCheck LineVerifier::check(const Polyline& line) const {
+    LineCheck result;
+    const auto& first = surface_.triangles.front();
+    SurfaceDistance::Nearest last{0, surface_.points[at(first[0])], TriangleId(0)};
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const Vec3 x = line.points[i];
+        const double r = line.radius[i];
+        const SurfaceDistance::Nearest wall = nearest(x, last);
+        result.clearance.push_back(wall.distance);
+        const auto& t = surface_.triangles[at(wall.triangle)];
+        const double rho =
+            covering_radius(surface_.points[at(t[0])], surface_.points[at(t[1])], surface_.points[at(t[2])]);
+        const double tolerance = 1e-6 * r + 2 * std::min(64 * surface_.coordinate_rounding, 1e-3 * r);
+        const double upper = std::sqrt(wall.distance * wall.distance + rho * rho);
+        result.ball_excess =
+            std::max({result.ball_excess, (wall.distance - r - tolerance) / r, (r - upper - tolerance) / r});
+        result.largest_gap = std::max(result.largest_gap, (r - wall.distance) / r);
+        const bool segment_ok =
+            i == 0 || segment_inside(line.points[i - 1], x, result.clearance[i - 1], wall.distance, 20, last);
+        if (result.inside && !(inside_.inside(x) && segment_ok)) {
+            result.inside = false;
+            result.outside_at = x;
+        }
+    }
+    return result;
+}
+
+}  // namespace lumenline

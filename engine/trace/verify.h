@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/surface.h"
+#include "engine/geometry/inside_test.h"
+#include "engine/geometry/surface_distance.h"
+#include "engine/trace/polyline.h"
+
+namespace lumenline {
+
+/// What the checks of one line found.
+struct LineCheck {
+    std::vector<double> clearance;  ///< per point: distance to the surface [length]
+    bool inside = true;             ///< every point and every segment is in the lumen
+    Vec3 outside_at;                ///< where it is not
+    /// Largest violation of clearance^2 <= R^2 <= clearance^2 + rho^2 relative to R^2, rho the
+    /// covering radius of the nearest triangle; <= 0 is as it should be.
+    double ball_excess = 0;
+    double largest_gap = 0;  ///< largest (R - clearance) / R: how coarse the surface is for its radius
+};
+
+/// Checks lines of one surface.
+class LineVerifier {
+public:
+    explicit LineVerifier(const Surface& surface);
+
+    /// @cost one distance query per point; more only where a segment is longer than its ends' clearances
+    [[nodiscard]] LineCheck check(const Polyline& line) const;
+
+private:
+    [[nodiscard]] SurfaceDistance::Nearest nearest(Vec3 x, SurfaceDistance::Nearest& last) const;
+    [[nodiscard]] bool segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
+                                      SurfaceDistance::Nearest& last) const;
+
+    const Surface& surface_;
+    InsideTest inside_;
+    SurfaceDistance distance_;
+};
+
+}  // namespace lumenline

@@ -1,0 +1,150 @@
+// Three passes: circumcentres and verdicts (independent per cell), Morton keys of the inside cells,
+// and a gather of these cells in key order. Only inside cells are gathered, half of all. The curve
+// order halves the time of everything that follows on large models: polygons, marching.
+#include "engine/voronoi/inside_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/geometry/circumcentre.h"
+#include "engine/geometry/inside_test.h"
+
+namespace lumenline {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+
+struct SiteFrame {
+    Vec3 position, normal;
+    double longest_edge = 0;
+};
+
+std::vector<SiteFrame> site_frames(const Surface& surface) {
+    std::vector<SiteFrame> frames(surface.site_count());
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = {surface.points[i], surface.normals[i], 0};
+    for (const auto& t : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = at(t[k]), b = at(t[(k + 1) % 3]);
+            const double length2 = squared_norm(surface.points[a] - surface.points[b]);
+            frames[a].longest_edge = std::max(frames[a].longest_edge, length2);
+            frames[b].longest_edge = std::max(frames[b].longest_edge, length2);
+        }
+    return frames;
+}
+
+enum class Verdict : std::uint8_t { kOutside, kInside, kQueried };
+
+/// The normals' verdict on one cell, or the need to ask.
+Verdict judge(const std::vector<SiteFrame>& frames, const std::array<std::uint32_t, 4>& sites, Vec3 centre,
+              double radius2) {
+    int below = 0;
+    double longest2 = 0;
+    for (const std::uint32_t s : sites) {
+        below += dot(frames[s].position - centre, frames[s].normal) > 0;
+        longest2 = std::max(longest2, frames[s].longest_edge);
+    }
+    if ((below == 0 || below == 4) && radius2 > 0.36 * longest2)
+        return below == 4 ? Verdict::kInside : Verdict::kOutside;
+    return Verdict::kQueried;
+}
+
+/// Spreads the low 21 bits of x to every third bit.
+std::uint64_t spread(std::uint64_t x) {
+    x = (x | x << 32) & 0x1f00000000ffffULL;
+    x = (x | x << 16) & 0x1f0000ff0000ffULL;
+    x = (x | x << 8) & 0x100f00f00f00f00fULL;
+    x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+    return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+struct Keyed {
+    std::uint64_t key;
+    std::uint32_t cell;
+};
+
+/// Stable radix sort by the upper 48 of the 63 key bits.
+void sort_by_key(std::vector<Keyed>& items) {
+    std::vector<Keyed> other(items.size());
+    for (const int shift : {15, 31, 47}) {
+        std::vector<std::uint32_t> start(65537, 0);
+        for (const Keyed& k : items) ++start[((k.key >> shift) & 65535) + 1];
+        for (std::size_t i = 0; i < 65536; ++i) start[i + 1] += start[i];
+        for (const Keyed& k : items) other[start[(k.key >> shift) & 65535]++] = k;
+        items.swap(other);
+    }
+}
+
+std::vector<std::uint32_t> curve_order(const std::vector<Vec3>& centres, const std::vector<Verdict>& verdict, Vec3 low,
+                                       Vec3 high) {
+    const Vec3 size = high - low;
+    const double scale = 2097151.0 / std::max({size.x, size.y, size.z});
+    std::vector<Keyed> keyed;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+        if (verdict[i] != Verdict::kInside) continue;
+        const Vec3 p = scale * (centres[i] - low);
+        keyed.push_back({spread(static_cast<std::uint64_t>(p.x)) | spread(static_cast<std::uint64_t>(p.y)) << 1 |
+                             spread(static_cast<std::uint64_t>(p.z)) << 2,
+                         static_cast<std::uint32_t>(i)});
+    }
+    sort_by_key(keyed);
+    std::vector<std::uint32_t> order(keyed.size());
+    for (std::size_t i = 0; i < keyed.size(); ++i) order[i] = keyed[i].cell;
+    return order;
+}
+
+}  // namespace
+
+InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, StageContext& context) {
+    const std::vector<SiteFrame> frames = site_frames(surface);
+    const InsideTest test(surface.points, surface.triangles);
+    Vec3 low = surface.points.front(), high = low;
+    for (const Vec3& p : surface.points)
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], p[axis]);
+            high[axis] = std::max(high[axis], p[axis]);
+        }
+
+    const std::size_t count = tetrahedra.count();
+    std::vector<Vec3> centres(count);
+    std::vector<Verdict> verdict(count);
+    std::vector<std::size_t> queried(count / kGrain + 1, 0);
+    context.parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& s = tetrahedra.sites[i];
+            const Vec3 c = circumcentre(frames[s[0]].position, frames[s[1]].position, frames[s[2]].position,
+                                        frames[s[3]].position);
+            centres[i] = c;
+            const bool in_box =
+                c.x > low.x && c.x < high.x && c.y > low.y && c.y < high.y && c.z > low.z && c.z < high.z;
+            verdict[i] = in_box ? judge(frames, s, c, squared_norm(c - frames[s[0]].position)) : Verdict::kOutside;
+            if (verdict[i] != Verdict::kQueried) continue;
+            verdict[i] = test.inside(c) ? Verdict::kInside : Verdict::kOutside;
+            ++queried[begin / kGrain];
+        }
+    });
+
+    const std::vector<std::uint32_t> order = curve_order(centres, verdict, low, high);
+    std::vector<std::uint32_t> number(count, InsideCells::kOutside);
+    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<std::uint32_t>(i);
+    InsideCells inside;
+    for (const std::size_t q : queried) inside.queried += q;
+    inside.centre.resize(order.size());
+    inside.radius.resize(order.size());
+    inside.sites.resize(order.size());
+    inside.neighbours.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t cell = order[i];
+        inside.centre[i] = centres[cell];
+        inside.sites[i] = tetrahedra.sites[cell];
+        inside.radius[i] = distance(centres[cell], frames[inside.sites[i][0]].position);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t n = tetrahedra.neighbours[cell][k];
+            inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
+        }
+    }
+    return inside;
+}
+
+}  // namespace lumenline
