@@ -1,0 +1,112 @@
+// Finds the format of a surface file and reads it. The file is read once into memory; the parsers and the SHA-256
+// see the same bytes. The content decides on the format, because extensions lie and because a binary STL file may
+// begin with any word; only OBJ has no mark of its own and goes by its extension.
+
+#include "io/mesh/mesh_io.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "io/mesh/formats.h"
+#include "io/mesh/sha256.h"
+
+namespace lumenline {
+namespace mesh {
+namespace {
+
+constexpr std::string_view kFormats = "STL, PLY, OBJ, OFF and legacy VTK polydata (.vtk)";
+
+std::string lower_extension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension;
+}
+
+// Keyword [ST][C][N][4|n]OFF, alone or before the counts; what of this is read is for the parser to say.
+bool is_off_keyword(std::string_view word) {
+    const std::size_t at = word.find("OFF");
+    return at != std::string_view::npos && word.substr(0, at).find_first_not_of("STCN4n") == std::string_view::npos &&
+           word.substr(at + 3).find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+TriangleSoup parse_surface(const SourceFile& file) {
+    if (file.bytes.empty()) fail_file(file, ErrorCode::kFileFormat, "expected a surface file, found an empty file");
+    if (is_binary_stl(file)) return parse_stl(file);
+    const std::string_view bytes = file.bytes;
+    if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(file);
+    if (is_word(bytes.substr(0, 14), "# vtk datafile")) return parse_vtk_legacy(file);
+
+    const std::string extension = lower_extension(file.path);
+    Cursor cursor(file, bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0, Layout::kFree, '#');
+    const std::string_view word = cursor.token();
+    if (word.starts_with("<?xml") || word.starts_with("<VTKFile")) {
+        fail_file(file, ErrorCode::kFileFormat,
+                  "expected one of the formats that are read, " + std::string(kFormats) +
+                      ", found an XML file; save it as legacy .vtk polydata or .ply");
+    }
+    if (is_word(word, "solid")) return parse_stl(file);
+    if (is_off_keyword(word)) return parse_off(file);
+    if (extension == ".stl") return parse_stl(file);
+    if (extension == ".off") return parse_off(file);
+    if (extension == ".obj") return parse_obj(file);
+    if (extension == ".ply") return parse_ply(file);
+    if (extension == ".vtk") return parse_vtk_legacy(file);
+    fail_file(file, ErrorCode::kFileFormat,
+              "expected one of the formats that are read, " + std::string(kFormats) + ", found extension " +
+                  in_quotes(extension) + " and content that begins with " + in_quotes(bytes.substr(0, 16)));
+}
+
+namespace {
+
+struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+struct Bytes {
+    std::unique_ptr<char[]> data;
+    std::size_t size = 0;
+};
+
+[[noreturn]] void fail_unreadable(const std::string& path, const std::string& why) {
+    throw StageError(Stage::kLoad, ErrorCode::kFileUnreadable, path + ": expected a readable file, found that " + why);
+}
+
+Bytes read_bytes(const std::string& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (error) fail_unreadable(path, "it cannot be opened (" + error.message() + ")");
+    if (!std::filesystem::exists(status)) fail_unreadable(path, "it does not exist");
+    if (!std::filesystem::is_regular_file(status)) fail_unreadable(path, "it is a directory or device");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) fail_unreadable(path, "its size is unknown (" + error.message() + ")");
+    const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
+    if (!file) fail_unreadable(path, "it cannot be opened (" + std::string(std::strerror(errno)) + ")");
+    Bytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
+    const std::size_t got = std::fread(bytes.data.get(), 1, size, file.get());
+    if (got != size || std::fgetc(file.get()) != EOF || std::ferror(file.get()) != 0) {
+        fail_unreadable(path, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
+                                  " or the file changed meanwhile");
+    }
+    return bytes;
+}
+
+}  // namespace
+}  // namespace mesh
+
+TriangleSoup read_surface(const std::string& path) {
+    const mesh::Bytes bytes = mesh::read_bytes(path);
+    const std::string_view view(bytes.data.get(), bytes.size);
+    TriangleSoup soup = mesh::parse_surface({path, view});
+    soup.source_file = path;
+    soup.source_sha256 = sha256_hex(view);
+    return soup;
+}
+
+}  // namespace lumenline
