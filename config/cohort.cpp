@@ -1,0 +1,91 @@
+// The document's top level: each section in turn, the models last because they share the options.
+
+#include "config/cohort.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "config/document.h"
+#include "config/models.h"
+#include "config/reader.h"
+#include "config/text_file.h"
+
+namespace lumenline {
+
+namespace {
+
+std::string message(const std::filesystem::path& file, std::size_t line, const std::string& sentence) {
+    return line == 0 ? fmt::format("{}: {}", file.string(), sentence)
+                     : fmt::format("{}:{}: {}", file.string(), line, sentence);
+}
+
+/// The value among `values` whose name is the one read; `fallback` when the key is absent.
+template <class Enum, std::size_t N, class NameOf>
+Enum enumerated(const std::optional<std::string>& name, Enum fallback, const std::array<Enum, N>& values,
+                NameOf name_of) {
+    if (name) {
+        for (const Enum value : values) {
+            if (name_of(value) == *name) return value;
+        }
+    }
+    return fallback;
+}
+
+PipelineOptions read_options(const MapReader& top) {
+    PipelineOptions options;
+    const MapReader endpoints = top.section("endpoints");
+    options.endpoints.mode =
+        enumerated(endpoints.choice("mode"), options.endpoints.mode,
+                   std::array{EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kPoints}, mode_name);
+
+    const MapReader condition = top.section("condition");
+    ConditionOptions& c = options.condition;
+    c.weld_tolerance = condition.number("weld_tolerance").value_or(c.weld_tolerance);
+    c.extension_radii = condition.number("extension_radii").value_or(c.extension_radii);
+    c.check_self_intersections = condition.boolean("check_self_intersections").value_or(c.check_self_intersections);
+
+    const MapReader centerlines = top.section("centerlines");
+    TraceOptions& t = options.trace;
+    t.refine = enumerated(centerlines.choice("refine"), t.refine, std::array{Refinement::kNone, Refinement::kPath},
+                          refinement_name);
+    t.pairs = enumerated(centerlines.choice("pairs"), t.pairs, std::array{Pairs::kNearest, Pairs::kAll}, pairs_name);
+    return options;
+}
+
+}  // namespace
+
+ConfigError::ConfigError(const std::filesystem::path& file, std::size_t line, const std::string& sentence)
+    : std::runtime_error(message(file, line, sentence)), file_(file), line_(line) {}
+
+CohortConfig load_cohort(const std::filesystem::path& yaml) {
+    CohortConfig config;
+    config.file = yaml;
+    TextFile file = read_text_file(yaml, {yaml, 0, "the configuration file"});
+    const std::shared_ptr<const YamlNode> document = parse_yaml(file.text, yaml);
+    config.text = std::move(file.raw);
+
+    const MapReader top(yaml, *document, "", "the configuration");
+    const std::filesystem::path folder = yaml.parent_path();
+    (void)top.require("cohort");
+    config.name = *top.text("cohort");
+
+    const MapReader run = top.section("run");
+    config.run.threads = run.integer_or_word("threads").value_or(config.run.threads);
+    config.run.models_in_flight = run.integer_or_word("models_in_flight").value_or(config.run.models_in_flight);
+
+    const MapReader archive = top.section("archive");
+    config.archive.directory = folder / archive.text("directory").value_or("results");
+    config.archive.float32_fields = archive.choice("precision").value_or("float32") == "float32";
+
+    ModelTask prototype;
+    prototype.identity.length_unit = top.text("length_unit").value_or(prototype.identity.length_unit);
+    prototype.identity.coordinate_system =
+        top.choice("coordinate_system").value_or(prototype.identity.coordinate_system);
+    prototype.options = read_options(top);
+    config.tasks = read_models(top, prototype, folder);
+    return config;
+}
+
+}  // namespace lumenline

@@ -1,0 +1,106 @@
+// Texts are always written in quotes: an id `null` or `1e3` must come back as the same text. Tasks share
+// every option but their points, so the first task speaks for all.
+
+#include <yaml-cpp/emitter.h>
+#include <yaml-cpp/emittermanip.h>
+
+#include <cassert>
+#include <string>
+#include <string_view>
+
+#include "config/cohort.h"
+#include "engine/core/text.h"
+
+namespace lumenline {
+
+namespace {
+
+void write(YAML::Emitter& out, const char* key, std::string_view word) {
+    out << YAML::Key << key << YAML::Value << std::string(word);
+}
+
+void write_text(YAML::Emitter& out, const std::string& key, const std::string& text) {
+    out << YAML::Key << YAML::DoubleQuoted << key << YAML::Value << YAML::DoubleQuoted << text;
+}
+
+void write_quoted(YAML::Emitter& out, const char* key, const std::string& text) {
+    out << YAML::Key << key << YAML::Value << YAML::DoubleQuoted << text;
+}
+
+void write_points(YAML::Emitter& out, const char* key, const std::vector<Vec3>& points) {
+    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const Vec3& p : points)
+        out << YAML::Flow << YAML::BeginSeq << exact_text(p.x) << exact_text(p.y) << exact_text(p.z) << YAML::EndSeq;
+    out << YAML::EndSeq;
+}
+
+void write_section(YAML::Emitter& out, const char* key) { out << YAML::Key << key << YAML::Value << YAML::BeginMap; }
+
+void write_model(YAML::Emitter& out, const ModelTask& task) {
+    const ModelIdentity& who = task.identity;
+    out << YAML::BeginMap;
+    write_quoted(out, "id", who.id);
+    write_quoted(out, "surface", who.source_file);
+    write_quoted(out, "subject", who.subject);
+    write_quoted(out, "session", who.session);
+    write_quoted(out, "side", who.side);
+    write_quoted(out, "structure", who.structure);
+    write_quoted(out, "group", who.group);
+    write_points(out, "inlets", task.options.endpoints.inlets);
+    write_points(out, "outlets", task.options.endpoints.outlets);
+    write(out, "scale", exact_text(task.scale));
+    write_section(out, "covariates");
+    for (const auto& [name, value] : who.covariates) write_text(out, name, value);
+    out << YAML::EndMap << YAML::EndMap;
+}
+
+/// The archive's directory as the YAML file would name it: relative to the file's folder, unless it is
+/// an absolute path to somewhere else.
+std::string directory_text(const CohortConfig& config) {
+    const std::filesystem::path& directory = config.archive.directory;
+    const std::filesystem::path folder = config.file.parent_path();
+    const std::filesystem::path relative = directory.lexically_relative(folder);
+    return (folder / relative == directory ? relative : directory).string();
+}
+
+std::string count_or(int count, const char* word) { return count == 0 ? word : std::to_string(count); }
+
+}  // namespace
+
+std::string resolved_text(const CohortConfig& config) {
+    assert(!config.tasks.empty());
+    const ModelTask& first = config.tasks.front();
+    const PipelineOptions& options = first.options;
+    YAML::Emitter out;
+    out << YAML::BeginMap;
+    write_quoted(out, "cohort", config.name);
+    write_quoted(out, "length_unit", first.identity.length_unit);
+    write(out, "coordinate_system", first.identity.coordinate_system);
+    write_section(out, "models");
+    out << YAML::Key << "list" << YAML::Value << YAML::BeginSeq;
+    for (const ModelTask& task : config.tasks) write_model(out, task);
+    out << YAML::EndSeq << YAML::EndMap;
+    write_section(out, "endpoints");
+    write(out, "mode", mode_name(options.endpoints.mode));
+    out << YAML::EndMap;
+    write_section(out, "condition");
+    write(out, "weld_tolerance", exact_text(options.condition.weld_tolerance));
+    write(out, "extension_radii", exact_text(options.condition.extension_radii));
+    write(out, "check_self_intersections", options.condition.check_self_intersections ? "true" : "false");
+    out << YAML::EndMap;
+    write_section(out, "centerlines");
+    write(out, "refine", refinement_name(options.trace.refine));
+    write(out, "pairs", pairs_name(options.trace.pairs));
+    out << YAML::EndMap;
+    write_section(out, "run");
+    write(out, "threads", count_or(config.run.threads, "all"));
+    write(out, "models_in_flight", count_or(config.run.models_in_flight, "auto"));
+    out << YAML::EndMap;
+    write_section(out, "archive");
+    write_quoted(out, "directory", directory_text(config));
+    write(out, "precision", config.archive.float32_fields ? "float32" : "float64");
+    out << YAML::EndMap << YAML::EndMap;
+    return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace lumenline
