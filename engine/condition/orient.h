@@ -1,0 +1,15 @@
+#pragma once
+
+#include "engine/condition/wall_mesh.h"
+#include "engine/core/stage_context.h"
+
+namespace lumenline {
+
+/// Makes neighbouring triangles agree in orientation, and every edge and vertex manifold by copying
+/// vertices (appended, with the `input_vertex` of their original). Leaves a mesh that is so already
+/// untouched; otherwise warns (non_manifold_split, triangles_reoriented) with counts.
+/// @returns the number of vertices copied
+/// @throws StageError kNonManifold for a one-sided surface
+std::size_t make_oriented_manifold(WallMesh& wall, StageContext& context);
+
+}  // namespace lumenline
