@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/model_record.h"
+#include "io/archive/errors.h"
+
+namespace lumenline {
+
+/// Writes `cohort.h5` of an archive: an external link to each model's file, the tables, and the
+/// configuration, in the format of io/ARCHIVE.md.
+///
+/// One row per model, in the order given. Lengths and radii of a model without lines are NaN. A
+/// covariate that any model has becomes a column of all: of numbers (NaN where a model has none)
+/// if all its values that are neither empty nor "n/a" are numbers, else of text. Seconds go to
+/// /timing, so that the bytes outside of it depend on the models and the configuration alone.
+/// The model files need not exist. Written and renamed like a model file.
+///
+/// @param archive_dir  must exist
+/// @throws StageError kArchiveWrite; kInternal if an id is no file name or appears twice
+void write_index(const std::filesystem::path& archive_dir, std::span<const ModelSummary> models,
+                 std::string_view config_text, std::string_view resolved_config);
+
+/// Models of `cohort.h5` as their table states them, without covariates and with the length 0
+/// (as `summarize` gives it) where the table has NaN.
+/// @throws ArchiveError, UnknownName if the file does not exist
+std::vector<ModelSummary> read_index(const std::filesystem::path& index_file);
+
+/// What `summarize` made of the record that was written to `model_file`, from the file alone.
+/// @throws ArchiveError, UnknownName if the file does not exist
+/// @cost   reads the arrays of the centerlines, not those of the surface or the complex
+ModelSummary read_summary(const std::filesystem::path& model_file);
+
+}  // namespace lumenline

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <string_view>
+
+/// Every name of the model file (io/ARCHIVE.md), format version 1. Those of the index are in index_names.h.
+namespace lumenline::names {
+
+inline constexpr int kFormatVersion = 1;
+inline constexpr std::string_view kModelFormat = "lumenline-model";
+inline constexpr std::string_view kCohortFormat = "lumenline-cohort";
+
+/// A dataset: its path, its unit and its meaning, the latter two written beside it as attributes.
+struct Field {
+    const char* path;
+    const char* units;
+    const char* description;
+};
+
+/// As a unit: the model's `length_unit`.
+inline constexpr std::string_view kLength = "length";
+
+// clang-format off
+inline constexpr const char* kSurface = "/surface";
+inline constexpr Field kSurfacePoints{"/surface/points", "length", "sites: vertices of the conditioned, closed surface"};
+inline constexpr Field kTriangles{"/surface/triangles", "1", "sites of each triangle, counter-clockwise from outside"};
+inline constexpr Field kNormals{"/surface/normals", "1", "unit outward normal of each site, angle-weighted"};
+inline constexpr Field kInputVertex{"/surface/input_vertex", "1", "vertex of the source file; -1 = added"};
+inline constexpr Field kOrigin{"/surface/origin", "1", "0 = wall, 1 = extension of an opening, 2 = cap"};
+inline constexpr Field kCap{"/surface/cap", "1",
+    "endpoint whose extension or cap the triangle is; -1 = wall, -2 = of an opening that is no endpoint"};
+inline constexpr Field kPole{"/surface/pole", "1", "farthest inner Voronoi vertex of each site; -1 = none"};
+
+inline constexpr const char* kEndpoints = "/endpoints";
+inline constexpr Field kEndpointPoint{"/endpoints/point", "length", "centre of the opening, or the given point"};
+inline constexpr Field kEndpointNormal{"/endpoints/normal", "1", "unit, out of the lumen; zero for a given point"};
+inline constexpr Field kEndpointRadius{"/endpoints/radius", "length",
+    "of the opening's circle of equal area, or of the ball at a given point"};
+inline constexpr Field kEndpointKind{"/endpoints/kind", "1", "boundary | point"};
+inline constexpr Field kEndpointRole{"/endpoints/role", "1", "inlet (root of the tree) | outlet"};
+inline constexpr Field kAnchor{"/endpoints/anchor", "length", "point on the Voronoi complex where lines start or end"};
+inline constexpr Field kAnchorRadius{"/endpoints/anchor_radius", "length", "ball radius at the anchor"};
+
+inline constexpr const char* kVoronoi = "/voronoi";
+inline constexpr Field kVertices{"/voronoi/vertices", "length", "inner Voronoi vertices: centres of maximal empty balls"};
+inline constexpr Field kBallRadius{"/voronoi/ball_radius", "length", "radius of the ball of each vertex"};
+inline constexpr Field kPolygonOffsets{"/voronoi/polygon_offsets", "1", "start of each polygon in polygon_vertices"};
+inline constexpr Field kPolygonVertices{"/voronoi/polygon_vertices", "1", "loops in order; two vertices = a bare edge"};
+inline constexpr Field kPolygonSites{"/voronoi/polygon_sites", "1", "the two sites of each polygon; -1 = a bare edge"};
+inline constexpr Field kArrivalTime{"/voronoi/arrival_time", "1",
+    "first arrival time at each vertex of the front from each source; +inf = unreached"};
+inline constexpr Field kSources{"/voronoi/sources", "1", "endpoint each row of arrival_time starts from"};
+inline constexpr Field kReached{"/voronoi/reached", "1", "vertices with a finite arrival time, per source"};
+inline constexpr Field kResidual{"/voronoi/residual", "1",
+    "largest distance of the field from the fixed point of its update, relative to T"};
+
+inline constexpr const char* kCenterlines = "/centerlines";
+inline constexpr Field kLinePoints{"/centerlines/points", "length", "points of all lines, each from source to target"};
+inline constexpr Field kLineOffsets{"/centerlines/offsets", "1", "start of each line in the arrays per point"};
+inline constexpr Field kLineBallRadius{"/centerlines/ball_radius", "length", "radius of the Voronoi ball"};
+inline constexpr Field kClearance{"/centerlines/clearance", "length", "distance to the triangulated surface"};
+inline constexpr Field kRadius{"/centerlines/radius", "length", "best estimate of the maximal inscribed ball's radius"};
+inline constexpr Field kAbscissa{"/centerlines/abscissa", "length", "arc length from the line's first point"};
+inline constexpr Field kLineSource{"/centerlines/source", "1", "endpoint where each line starts"};
+inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends"};
+inline constexpr Field kPathPoints{"/centerlines/path/points", "length", "points of the descent paths on the complex"};
+inline constexpr Field kPathOffsets{"/centerlines/path/offsets", "1", "start of each path in the arrays per point"};
+inline constexpr Field kPathBallRadius{"/centerlines/path/ball_radius", "length", "radius of the Voronoi ball"};
+inline constexpr Field kPathAbscissa{"/centerlines/path/abscissa", "length", "arc length of the path from its source"};
+inline constexpr Field kLineAbscissa{"/centerlines/path/line_abscissa", "length",
+    "abscissa of the corresponding point of the final line"};
+
+inline constexpr Field kCovariateName{"/covariates/name", "1", "column of the cohort's table"};
+inline constexpr Field kCovariateValue{"/covariates/value", "1", "this model's value, as written"};
+
+inline constexpr Field kCode{"/diagnostics/code", "1", "stable name of the finding"};
+inline constexpr Field kSeverity{"/diagnostics/severity", "1", "note | warning | error"};
+inline constexpr Field kStage{"/diagnostics/stage", "1", "stage that made the finding"};
+inline constexpr Field kMessage{"/diagnostics/message", "1", "one sentence"};
+inline constexpr Field kValue{"/diagnostics/value", "1", "what was measured, in the unit the message states; NaN = none"};
+inline constexpr Field kLimit{"/diagnostics/limit", "1", "what it was held against; NaN = none"};
+
+inline constexpr Field kHost{"/provenance/host", "1", "machine that computed the model"};
+inline constexpr Field kProgram{"/provenance/lumenline_version", "1", "version of the program"};
+inline constexpr Field kCommit{"/provenance/build_commit", "1", "commit the program was built from"};
+inline constexpr Field kCompiler{"/provenance/compiler", "1", "compiler that built it"};
+inline constexpr Field kHdf5Version{"/provenance/hdf5_version", "1", "version of the HDF5 library"};
+inline constexpr Field kThreads{"/provenance/threads", "1", "threads of the run"};
+
+inline constexpr Field kTimingStage{"/timing/stage", "1", "stages of the pipeline, in order"};
+inline constexpr Field kTimingSeconds{"/timing/seconds", "s", "time each stage took, summed over sources"};
+inline constexpr Field kTotalSeconds{"/timing/total_seconds", "s", "time of work on the model, without waiting"};
+inline constexpr Field kPeakBytes{"/timing/peak_resident_bytes", "B", "of the process, when the model was finished"};
+
+inline constexpr const char* kVtk = "/VTKHDF";
+inline constexpr Field kVtkPointCount{"/VTKHDF/NumberOfPoints", "1", "sites and centerline points"};
+inline constexpr Field kVtkCellCount{"/VTKHDF/NumberOfCells", "1", "triangles and centerlines"};
+inline constexpr Field kVtkIdCount{"/VTKHDF/NumberOfConnectivityIds", "1", "length of Connectivity"};
+inline constexpr Field kVtkPoints{"/VTKHDF/Points", "length", "sites, then centerline points"};
+inline constexpr Field kVtkConnectivity{"/VTKHDF/Connectivity", "1", "points of each cell"};
+inline constexpr Field kVtkOffsets{"/VTKHDF/Offsets", "1", "start of each cell in Connectivity"};
+inline constexpr Field kVtkTypes{"/VTKHDF/Types", "1", "5 = triangle, 4 = polyline"};
+inline constexpr Field kVtkPart{"/VTKHDF/CellData/part", "1", "0 = wall, 1 = extension or cap, 2 = centerline"};
+inline constexpr Field kVtkRadius{"/VTKHDF/PointData/MaximumInscribedSphereRadius", "length",
+    "radius of centerline points; NaN on the surface"};
+// clang-format on
+
+}  // namespace lumenline::names

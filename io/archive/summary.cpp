@@ -1,0 +1,239 @@
+// A summary is not stored: it is made again by `summarize`, from a record that holds the small parts
+// of the file (endpoints' roles, lines, diagnostics) and, for the large ones, only their counts. So
+// there is one definition of each number, and it cannot drift from the data.
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "io/archive/index.h"
+#include "io/archive/index_names.h"
+#include "io/archive/read.h"
+
+namespace lumenline {
+
+namespace {
+
+[[noreturn]] void damaged(const ArchiveFile& file, const std::string& reason) {
+    throw ArchiveError("cannot use '" + file.file().string() + "': " + reason);
+}
+
+ModelStatus status_of(const ArchiveFile& file, const std::string& name) {
+    for (const ModelStatus status : {ModelStatus::kOk, ModelStatus::kWarning, ModelStatus::kFailed})
+        if (status_name(status) == name) return status;
+    damaged(file, "'" + name + "' is no status (ok, warning, failed)");
+}
+
+Stage stage_of(const ArchiveFile& file, const std::string& name) {
+    for (int stage = 0; stage < kStageCount; ++stage)
+        if (stage_name(static_cast<Stage>(stage)) == name) return static_cast<Stage>(stage);
+    damaged(file, "'" + name + "' is no stage that this program knows");
+}
+
+ErrorCode code_of(const ArchiveFile& file, const std::string& name) {
+    for (int code = 0; code <= static_cast<int>(ErrorCode::kInternal); ++code)
+        if (error_name(static_cast<ErrorCode>(code)) == name) return static_cast<ErrorCode>(code);
+    damaged(file, "'" + name + "' is no failure code that this program knows");
+}
+
+std::string text_attribute(const ArchiveFile& file, const char* name) {
+    const std::optional<std::string> text = file.attribute("/", name);
+    if (!text) damaged(file, std::string("it has no attribute '") + name + "'");
+    return *text;
+}
+
+ModelIdentity read_identity(const ArchiveFile& file) {
+    ModelIdentity who;
+    who.id = text_attribute(file, "id");
+    who.subject = text_attribute(file, "subject");
+    who.session = text_attribute(file, "session");
+    who.side = text_attribute(file, "side");
+    who.structure = text_attribute(file, "structure");
+    who.group = text_attribute(file, "group");
+    who.length_unit = text_attribute(file, "length_unit");
+    who.coordinate_system = text_attribute(file, "coordinate_system");
+    who.source_file = text_attribute(file, "source_file");
+    who.source_sha256 = text_attribute(file, "source_sha256");
+    who.inputs_sha256 = text_attribute(file, "inputs_sha256");
+    const std::vector<std::string> columns = file.strings(names::kCovariateName.path);
+    const std::vector<std::string> values = file.strings(names::kCovariateValue.path);
+    if (columns.size() != values.size()) damaged(file, "/covariates/name and value are not of the same length");
+    for (std::size_t i = 0; i < columns.size(); ++i) who.covariates.emplace_back(columns[i], values[i]);
+    return who;
+}
+
+std::shared_ptr<const Centerlines> read_lines(const ArchiveFile& file) {
+    auto lines = std::make_shared<Centerlines>();
+    lines->radius = file.numbers(names::kRadius.path);
+    lines->abscissa = file.numbers(names::kAbscissa.path);
+    lines->source.resize(file.numbers(names::kLineSource.path).size());
+    double last = 0;
+    for (const double offset : file.numbers(names::kLineOffsets.path)) {
+        if (!(offset >= last) || offset > static_cast<double>(lines->radius.size()))
+            damaged(file, "/centerlines/offsets do not ascend within the points");
+        lines->offsets.push_back(static_cast<std::uint32_t>(offset));
+        last = offset;
+    }
+    if (lines->offsets.size() != lines->source.size() + 1 || lines->radius.size() != lines->abscissa.size())
+        damaged(file, "the arrays of /centerlines are not of matching length");
+    return lines;
+}
+
+std::shared_ptr<const Endpoints> read_roles(const ArchiveFile& file) {
+    auto endpoints = std::make_shared<Endpoints>();
+    for (const std::string& role : file.strings(names::kEndpointRole.path)) {
+        Endpoint endpoint;
+        endpoint.role = role == role_name(EndpointRole::kInlet) ? EndpointRole::kInlet : EndpointRole::kOutlet;
+        if (role_name(endpoint.role) != role) damaged(file, "'" + role + "' is no role of an endpoint");
+        endpoints->push_back(endpoint);
+    }
+    return endpoints;
+}
+
+Diagnostics read_severities(const ArchiveFile& file) {
+    Diagnostics found;
+    for (const std::string& severity : file.strings(names::kSeverity.path)) {
+        Diagnostic diagnostic;
+        diagnostic.severity = severity == severity_name(Severity::kNote)      ? Severity::kNote
+                              : severity == severity_name(Severity::kWarning) ? Severity::kWarning
+                                                                              : Severity::kError;
+        found.push_back(diagnostic);
+    }
+    return found;
+}
+
+std::size_t length_of(const ArchiveFile& file, const names::Field& field) {
+    if (!file.has(field.path)) return 0;
+    const std::vector<std::uint64_t> shape = file.shape(field.path);
+    return shape.empty() ? 0 : shape.front();
+}
+
+double only_number(const ArchiveFile& file, const names::Field& field) {
+    const std::vector<double> numbers = file.numbers(field.path);
+    if (numbers.size() != 1) damaged(file, std::string(field.path) + " is not one number");
+    return numbers.front();
+}
+
+Failure read_failure(const ArchiveFile& file) {
+    return {stage_of(file, text_attribute(file, "failure_stage")), code_of(file, text_attribute(file, "failure_code")),
+            text_attribute(file, "failure_sentence")};
+}
+
+/// A column of the index, which must have one value per model.
+template <class T>
+std::vector<T> column(const ArchiveFile& index, const char* path, std::size_t rows) {
+    std::vector<T> values;
+    if constexpr (std::is_same_v<T, std::string>)
+        values = index.strings(path);
+    else
+        values = index.numbers(path);
+    if (values.size() != rows)
+        damaged(index, std::string(path) + " has " + std::to_string(values.size()) + " rows for " +
+                           std::to_string(rows) + " models");
+    return values;
+}
+
+void read_identities(const ArchiveFile& index, std::vector<ModelSummary>& models) {
+    const std::pair<const names::Field*, std::string ModelIdentity::*> columns[] = {
+        {&names::kId, &ModelIdentity::id},
+        {&names::kSubject, &ModelIdentity::subject},
+        {&names::kSession, &ModelIdentity::session},
+        {&names::kSide, &ModelIdentity::side},
+        {&names::kStructure, &ModelIdentity::structure},
+        {&names::kGroup, &ModelIdentity::group},
+        {&names::kLengthUnit, &ModelIdentity::length_unit},
+        {&names::kCoordinates, &ModelIdentity::coordinate_system},
+        {&names::kSourceFile, &ModelIdentity::source_file},
+        {&names::kSourceSha, &ModelIdentity::source_sha256},
+        {&names::kInputsSha, &ModelIdentity::inputs_sha256}};
+    for (const auto& [field, member] : columns) {
+        const auto values = column<std::string>(index, field->path, models.size());
+        for (std::size_t row = 0; row < models.size(); ++row) models[row].identity.*member = values[row];
+    }
+}
+
+void read_counts(const ArchiveFile& index, std::vector<ModelSummary>& models) {
+    const std::pair<const names::Field*, std::size_t ModelSummary::*> columns[] = {
+        {&names::kSites, &ModelSummary::sites},
+        {&names::kTriangleCount, &ModelSummary::triangles},
+        {&names::kVertexCount, &ModelSummary::voronoi_vertices},
+        {&names::kPolygonCount, &ModelSummary::polygons},
+        {&names::kInlets, &ModelSummary::inlets},
+        {&names::kOutlets, &ModelSummary::outlets},
+        {&names::kLineCount, &ModelSummary::centerlines},
+        {&names::kWarnings, &ModelSummary::warnings}};
+    for (const auto& [field, member] : columns) {
+        const auto values = column<double>(index, field->path, models.size());
+        for (std::size_t row = 0; row < models.size(); ++row) {
+            if (!(values[row] >= 0)) damaged(index, std::string(field->path) + " holds a negative count");
+            models[row].*member = static_cast<std::size_t>(values[row]);
+        }
+    }
+}
+
+void read_lengths(const ArchiveFile& index, std::vector<ModelSummary>& models) {
+    const std::pair<const names::Field*, double ModelSummary::*> columns[] = {
+        {&names::kLineLength, &ModelSummary::length},
+        {&names::kRadiusMin, &ModelSummary::radius_min},
+        {&names::kRadiusMean, &ModelSummary::radius_mean},
+        {&names::kRadiusMax, &ModelSummary::radius_max},
+        {&names::kSeconds, &ModelSummary::seconds}};
+    for (const auto& [field, member] : columns) {
+        const auto values = column<double>(index, field->path, models.size());
+        for (std::size_t row = 0; row < models.size(); ++row)
+            models[row].*member = std::isnan(values[row]) ? 0 : values[row];
+    }
+}
+
+void read_states(const ArchiveFile& index, std::vector<ModelSummary>& models) {
+    const auto status = column<std::string>(index, names::kStatus.path, models.size());
+    const auto stage = column<std::string>(index, names::kFailureStage.path, models.size());
+    const auto code = column<std::string>(index, names::kFailureCode.path, models.size());
+    const std::vector<std::string> sentences = index.strings(names::kFailedSentence.path);
+    std::size_t failed = 0;
+    for (std::size_t row = 0; row < models.size(); ++row) {
+        models[row].status = status_of(index, status[row]);
+        if (code[row].empty()) continue;
+        if (failed == sentences.size()) damaged(index, "/tables/failures has fewer rows than there are failed models");
+        models[row].failure = Failure{stage_of(index, stage[row]), code_of(index, code[row]), sentences[failed++]};
+    }
+}
+
+void require_format(const ArchiveFile& file, std::string_view format) {
+    if (file.format() != format) damaged(file, "it is a " + file.format() + " file, not a " + std::string(format));
+}
+
+}  // namespace
+
+ModelSummary read_summary(const std::filesystem::path& model_file) {
+    const ArchiveFile file(model_file);
+    require_format(file, names::kModelFormat);
+    ModelRecord record;
+    record.identity = read_identity(file);
+    record.status = status_of(file, text_attribute(file, "status"));
+    if (record.status == ModelStatus::kFailed) record.failure = read_failure(file);
+    record.diagnostics = read_severities(file);
+    if (file.has(names::kEndpointRole.path)) record.endpoints = read_roles(file);
+    if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
+    record.facts.total_seconds = only_number(file, names::kTotalSeconds);
+
+    ModelSummary summary = summarize(record);
+    summary.sites = length_of(file, names::kSurfacePoints);
+    summary.triangles = length_of(file, names::kTriangles);
+    summary.voronoi_vertices = length_of(file, names::kVertices);
+    summary.polygons = length_of(file, names::kPolygonSites);
+    return summary;
+}
+
+std::vector<ModelSummary> read_index(const std::filesystem::path& index_file) {
+    const ArchiveFile index(index_file);
+    require_format(index, names::kCohortFormat);
+    std::vector<ModelSummary> models(index.strings(names::kId.path).size());
+    read_identities(index, models);
+    read_states(index, models);
+    read_counts(index, models);
+    read_lengths(index, models);
+    return models;
+}
+
+}  // namespace lumenline
