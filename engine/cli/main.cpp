@@ -1,1 +1,39 @@
-int main() { return 0; }
+// The command line: every verb sets the action to run; what it throws becomes one sentence.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "config/cohort.h"
+#include "engine/cli/browse.h"
+#include "engine/cli/phantom.h"
+#include "engine/cli/run.h"
+#include "engine/core/version.h"
+
+int main(int argc, char** argv) {
+    using namespace lumenline;
+    CLI::App app("Lumenline: centerlines and surface geometry of vascular cohorts", "lumenline");
+    app.set_version_flag("--version",
+                         fmt::format("lumenline {} ({}, {})", version(), build_commit(), build_compiler()));
+    app.require_subcommand(1);
+    app.footer(
+        "Results go to standard output, progress and diagnostics to standard error.\n"
+        "Exit status: 0 all models ok or warning, 1 at least one failed, 2 usage or configuration error, 3 stopped.");
+    std::function<int()> action;
+    add_run(app, action);
+    add_model(app, action);
+    add_browse(app, action);
+    add_phantom(app, action);
+    try {
+        app.parse(argc, argv);
+        return action();
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kDone : kUsage;
+    } catch (const ConfigError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return kUsage;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "lumenline: {}\n", error.what());
+        return kModelFailed;
+    }
+}

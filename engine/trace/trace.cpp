@@ -50,39 +50,36 @@ public:
 
     void add(const ArrivalField& field, std::size_t target) {
         const Endpoint &from = endpoints_[at(field.source)], &to = endpoints_[target];
-        std::optional<ComplexPath> path = trace_back(complex_, field.time, from, to);
-        if (!path) {
+        const std::optional<ComplexPath> traced = trace_back(complex_, field.time, from, to);
+        if (!traced) {
             report_unreached(target);
             return;
         }
-        thin_path(complex_, *path, kMinStep);
-        if (options_.refine == Refinement::kPath) {
-            relax_path(complex_, *path);
-            thin_path(complex_, *path, kMinStep);
+        Candidate line = make_line(*traced, options_.refine, from, to);
+        if (!line.check.inside && options_.refine == Refinement::kPath) {
+            line = make_line(*traced, Refinement::kNone, from, to);
+            if (line.check.inside)
+                context_.note("line_not_relaxed", "the line to " + describe(endpoints_, target) +
+                                                      " is kept as traced: relaxed, it would leave the lumen");
         }
-        const Polyline whole = polyline_of(complex_, *path);
-        Polyline line = whole;
-        const double cut_front = from.opening.is_none() ? 0 : cut_at_plane(line, from.point, from.normal, true);
-        if (!to.opening.is_none()) cut_at_plane(line, to.point, to.normal, false);
-        if (line.size() < 2) {
+        if (line.cut.size() < 2) {
             context_.error("line_vanished", "the line to " + describe(endpoints_, target) +
                                                 " has no part between the planes of its two openings; it is left out");
             return;
         }
-        const LineCheck check = verifier_.check(line);
-        if (!check.inside) {
+        if (!line.check.inside) {
             context_.error("line_leaves_lumen", "the line to " + describe(endpoints_, target) +
-                                                    " leaves the lumen at " + short_text(check.outside_at) +
+                                                    " leaves the lumen at " + short_text(line.check.outside_at) +
                                                     "; it is left out");
             return;
         }
-        if (check.ball_excess > 0)
+        if (line.check.ball_excess > 0)
             context_.error("ball_clearance",
                            "the line to " + describe(endpoints_, target) +
                                " has a ball that disagrees with its distance to the wall: its radii there are doubtful",
-                           check.ball_excess, 0);
-        largest_gap_ = std::max(largest_gap_, check.largest_gap);
-        append(field.source, EndpointId(target), line, check.clearance, whole, cut_front);
+                           line.check.ball_excess, 0);
+        note_gaps(line);
+        append(field.source, EndpointId(target), line);
     }
 
     void report_unreached(std::size_t target) {
@@ -94,31 +91,69 @@ public:
         if (lines_.line_count() == 0)
             throw StageError(Stage::kTrace, ErrorCode::kNoLineTraced,
                              "no centerline could be traced: " + context_.diagnostics().back().message);
-        if (largest_gap_ > kUndersampled)
+        if (gap_length_ > 0)
             context_.warn("undersampled",
-                          "the surface is coarse for its narrowest parts: a ball reaches beyond the wall by " +
-                              short_text(100 * largest_gap_, 3) + " % of its radius; radii there are overestimated",
+                          "the surface is coarse for its narrowest parts: along " +
+                              short_text(100 * gap_length_ / length_, 3) +
+                              " % of the lines' length balls reach beyond the wall by more than " +
+                              short_text(100 * kUndersampled, 3) + " % of their radius, at " + short_text(gap_at_) +
+                              " by " + short_text(100 * largest_gap_, 3) + " %; radii there are overestimated",
                           largest_gap_, kUndersampled);
         return std::move(lines_);
     }
 
 private:
-    void append(EndpointId source, EndpointId target, const Polyline& line, const std::vector<double>& clearance,
-                const Polyline& whole, double cut_front) {
+    /// A line before it is accepted.
+    struct Candidate {
+        Polyline whole;        ///< from anchor to anchor
+        Polyline cut;          ///< the part between the openings' planes
+        double cut_front = 0;  ///< length cut off before it [length]
+        LineCheck check;
+    };
+
+    Candidate make_line(ComplexPath path, Refinement refine, const Endpoint& from, const Endpoint& to) const {
+        if (refine == Refinement::kPath) {
+            thin_path(complex_, path, kMinStep);
+            relax_path(complex_, path);
+        }
+        thin_path(complex_, path, kMinStep);
+        Candidate line;
+        line.whole = line.cut = polyline_of(complex_, path);
+        if (!from.opening.is_none()) line.cut_front = cut_at_plane(line.cut, from.point, from.normal, true);
+        if (!to.opening.is_none()) cut_at_plane(line.cut, to.point, to.normal, false);
+        line.check = verifier_.check(line.cut);
+        return line;
+    }
+
+    /// Sums up where balls reach beyond the wall.
+    void note_gaps(const Candidate& line) {
+        for (std::size_t i = 1; i < line.cut.size(); ++i) {
+            const double step = line.cut.abscissa[i] - line.cut.abscissa[i - 1];
+            const double gap = 1 - line.check.clearance[i] / line.cut.radius[i];
+            length_ += step;
+            if (gap > kUndersampled) gap_length_ += step;
+            if (gap > largest_gap_) {
+                largest_gap_ = gap;
+                gap_at_ = line.cut.points[i];
+            }
+        }
+    }
+
+    void append(EndpointId source, EndpointId target, const Candidate& line) {
         const auto extend = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-        extend(lines_.points, line.points);
-        extend(lines_.ball_radius, line.radius);
-        extend(lines_.radius, line.radius);
-        extend(lines_.clearance, clearance);
-        extend(lines_.abscissa, line.abscissa);
+        extend(lines_.points, line.cut.points);
+        extend(lines_.ball_radius, line.cut.radius);
+        extend(lines_.radius, line.cut.radius);
+        extend(lines_.clearance, line.check.clearance);
+        extend(lines_.abscissa, line.cut.abscissa);
         lines_.offsets.push_back(static_cast<std::uint32_t>(lines_.points.size()));
         lines_.source.push_back(source);
         lines_.target.push_back(target);
-        extend(lines_.path.points, whole.points);
-        extend(lines_.path.ball_radius, whole.radius);
-        extend(lines_.path.abscissa, whole.abscissa);
-        for (const double s : whole.abscissa)
-            lines_.path.line_abscissa.push_back(std::clamp(s - cut_front, 0.0, line.abscissa.back()));
+        extend(lines_.path.points, line.whole.points);
+        extend(lines_.path.ball_radius, line.whole.radius);
+        extend(lines_.path.abscissa, line.whole.abscissa);
+        for (const double s : line.whole.abscissa)
+            lines_.path.line_abscissa.push_back(std::clamp(s - line.cut_front, 0.0, line.cut.abscissa.back()));
         lines_.path.offsets.push_back(static_cast<std::uint32_t>(lines_.path.points.size()));
     }
 
@@ -128,7 +163,8 @@ private:
     StageContext& context_;
     LineVerifier verifier_;
     Centerlines lines_;
-    double largest_gap_ = 0;
+    double length_ = 0, gap_length_ = 0, largest_gap_ = 0;
+    Vec3 gap_at_;
 };
 
 }  // namespace

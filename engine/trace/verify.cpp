@@ -42,7 +42,6 @@ LineCheck LineVerifier::check(const Polyline& line) const {
         const double upper = std::sqrt(wall.distance * wall.distance + rho * rho);
         result.ball_excess =
             std::max({result.ball_excess, (wall.distance - r - tolerance) / r, (r - upper - tolerance) / r});
-        result.largest_gap = std::max(result.largest_gap, (r - wall.distance) / r);
         const bool segment_ok =
             i == 0 || segment_inside(line.points[i - 1], x, result.clearance[i - 1], wall.distance, 20, last);
         if (result.inside && !(inside_.inside(x) && segment_ok)) {

@@ -18,7 +18,6 @@ struct LineCheck {
     /// Largest violation of clearance^2 <= R^2 <= clearance^2 + rho^2 relative to R^2, rho the
     /// covering radius of the nearest triangle; <= 0 is as it should be.
     double ball_excess = 0;
-    double largest_gap = 0;  ///< largest (R - clearance) / R: how coarse the surface is for its radius
 };
 
 /// Checks lines of one surface.

@@ -1,6 +1,9 @@
-// Three passes: circumcentres and verdicts (independent per cell), Morton keys of the inside cells,
-// and a gather of these cells in key order. Only inside cells are gathered, half of all. The curve
-// order halves the time of everything that follows on large models: polygons, marching.
+// Four passes: circumcentres and verdicts (independent per cell), Morton keys of the inside cells, a
+// gather of these cells in key order, and a look at the Voronoi edges between them. Only inside cells
+// are gathered, half of all. The curve order halves the time of everything that follows on large
+// models: polygons, marching. An edge between two inside vertices can still pass through the wall
+// where two vessels touch or the surface is coarse: where its smallest ball is no larger than the
+// triangles around, points along it are asked as well, and the edge is cut.
 #include "engine/voronoi/inside_cells.h"
 
 #include <algorithm>
@@ -15,6 +18,10 @@ namespace lumenline {
 namespace {
 
 constexpr std::size_t kGrain = 8192;
+/// Squared share of the longest edge around a ball's sites above which the ball is far from the wall.
+constexpr double kLargeBall2 = 0.6 * 0.6;
+/// The same for Voronoi edges, against the longest edge of all sites of the cells around.
+constexpr double kSafeEdge2 = 0.6 * 0.6;
 
 struct SiteFrame {
     Vec3 position, normal;
@@ -45,7 +52,7 @@ Verdict judge(const std::vector<SiteFrame>& frames, const std::array<std::uint32
         below += dot(frames[s].position - centre, frames[s].normal) > 0;
         longest2 = std::max(longest2, frames[s].longest_edge);
     }
-    if ((below == 0 || below == 4) && radius2 > 0.36 * longest2)
+    if ((below == 0 || below == 4) && radius2 > kLargeBall2 * longest2)
         return below == 4 ? Verdict::kInside : Verdict::kOutside;
     return Verdict::kQueried;
 }
@@ -92,6 +99,54 @@ std::vector<std::uint32_t> curve_order(const std::vector<Vec3>& centres, const s
     std::vector<std::uint32_t> order(keyed.size());
     for (std::size_t i = 0; i < keyed.size(); ++i) order[i] = keyed[i].cell;
     return order;
+}
+
+/// Per site, the longest edge of any site with which it shares an inside cell, squared: the triangle
+/// that passes through a ball need not be at the sites on the ball, nor of their size.
+std::vector<double> longest_around(const InsideCells& cells, const std::vector<SiteFrame>& frames) {
+    std::vector<double> around(frames.size(), 0);
+    for (const auto& sites : cells.sites) {
+        double longest2 = 0;
+        for (const std::uint32_t s : sites) longest2 = std::max(longest2, frames[s].longest_edge);
+        for (const std::uint32_t s : sites) around[s] = std::max(around[s], longest2);
+    }
+    return around;
+}
+
+/// Does the Voronoi edge between two inside cells leave the lumen?
+bool leaves_lumen(const InsideCells& cells, const std::vector<double>& around, const InsideTest& test, std::size_t cell,
+                  std::size_t face) {
+    const std::uint32_t other = cells.neighbours[cell][face];
+    double longest2 = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (k != face) longest2 = std::max(longest2, around[cells.sites[cell][k]]);
+    // R^2 along the edge is t -> ra^2 + t (rb^2 - ra^2 - l^2) + t^2 l^2.
+    const double ra2 = cells.radius[cell] * cells.radius[cell], rb2 = cells.radius[other] * cells.radius[other];
+    const double length2 = squared_norm(cells.centre[other] - cells.centre[cell]);
+    if (!(length2 > 0)) return false;
+    const double t = std::clamp(0.5 * (ra2 - rb2 + length2) / length2, 0.0, 1.0);
+    const double least2 = ra2 + t * (rb2 - ra2 - length2) + t * t * length2;
+    if (least2 > kSafeEdge2 * longest2) return false;
+    const auto outside = [&](double u) { return !test.inside(lerp(cells.centre[cell], cells.centre[other], u)); };
+    if (t > 0 && t < 1 && outside(t)) return true;
+    // An eighth of a triangle apart: thin overlaps of two walls are not stepped over.
+    const double pieces = std::clamp(std::ceil(8 * std::sqrt(length2 / longest2)), 2.0, 32.0);
+    for (double i = 1; i < pieces; ++i)
+        if (outside(i / pieces)) return true;
+    return false;
+}
+
+void cut_edges(InsideCells& cells, const std::vector<SiteFrame>& frames, const InsideTest& test) {
+    const std::vector<double> around = longest_around(cells, frames);
+    for (std::uint32_t cell = 0; cell < cells.count(); ++cell)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t other = cells.neighbours[cell][k];
+            if (other == InsideCells::kOutside || other < cell || !leaves_lumen(cells, around, test, cell, k)) continue;
+            cells.neighbours[cell][k] = InsideCells::kOutside;
+            for (std::uint32_t& back : cells.neighbours[other])
+                if (back == cell) back = InsideCells::kOutside;
+            ++cells.cut_edges;
+        }
 }
 
 }  // namespace
@@ -144,6 +199,7 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
             inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
         }
     }
+    cut_edges(inside, frames, test);
     return inside;
 }
 

@@ -17,7 +17,8 @@ struct InsideCells {
     std::vector<double> radius;                            ///< (I) circumradii [length]
     std::vector<std::array<std::uint32_t, 4>> sites;       ///< (I)
     std::vector<std::array<std::uint32_t, 4>> neighbours;  ///< (I) inside cell across each face; kOutside = none
-    std::size_t queried = 0;                               ///< cells for which the normals were not conclusive
+    std::size_t cut_edges = 0;  ///< pairs of inside cells whose Voronoi edge leaves the lumen: no neighbours
+    std::size_t queried = 0;    ///< cells for which the normals were not conclusive
 
     [[nodiscard]] std::size_t count() const { return centre.size(); }
 };

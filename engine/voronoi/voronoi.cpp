@@ -51,6 +51,11 @@ VoronoiComplex build_voronoi(const Surface& surface, const VoronoiOptions& optio
     if (!duplicates.empty())
         context.note("coincident_sites", counted(duplicates.size(), "site") + " at the place of another share its pole",
                      static_cast<double>(duplicates.size()));
+    if (cells.cut_edges > 0)
+        context.note(
+            "voronoi_edges_cut",
+            counted(cells.cut_edges, "Voronoi edge") + " between balls inside the lumen would pass through its wall",
+            static_cast<double>(cells.cut_edges));
     return complex;
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace lumenline {
+
+/// Adds the verb `browse ARCHIVE [list | show ID | get ID PATH | tree ID]`, which prints what an
+/// archive holds to standard output.
+///
+/// When the verb was parsed, `action` is set to the function that does it. The function returns
+/// the exit status and throws nothing: 0 done, also when the reader of the output has gone; 1 the
+/// archive is damaged or standard output cannot be written; 2 there is no such archive, model,
+/// dataset or attribute. Its one sentence goes to standard error.
+///
+/// Ids and paths may be spelled like a verb as long as `app.require_subcommand(1)` is set.
+/// `action` must live as long as `app`.
+void add_browse(CLI::App& app, std::function<int()>& action);
+
+}  // namespace lumenline

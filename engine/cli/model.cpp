@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <ostream>
+
+#include "engine/cli/model_io.h"
+#include "engine/cli/run.h"
+#include "engine/cli/standard_output.h"
+#include "engine/cli/table.h"
+#include "engine/schedule/run_models.h"
+#include "io/archive/model_file.h"
+
+namespace lumenline {
+
+namespace {
+
+struct ModelArguments {
+    ModelTask task;
+    std::string output;
+    std::vector<std::string> inlets, outlets;
+    std::string precision = "float32";
+    int threads = 0;
+    bool skip_self_intersections = false;
+};
+
+Vec3 parse_point(const std::string& text, const std::string& option) {
+    Vec3 p;
+    char after = 0;
+    // The trailing %c catches anything behind the third number.
+    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &after) != 3 || !std::isfinite(p.x + p.y + p.z))
+        throw CLI::ValidationError(option, "expected three numbers as X,Y,Z, got '" + text + "'");
+    return p;
+}
+
+void print_result(const ModelRecord& record, const std::string& output) {
+    to_standard_output([&](std::ostream& out) {
+        print_models(out, {summarize(record)});
+        for (const Diagnostic& d : record.diagnostics)
+            if (d.severity != Severity::kNote)
+                out << fmt::format("{} ({}): {}\n", severity_name(d.severity), d.code, d.message);
+        out << "model file: " << output << "\n";
+    });
+}
+
+int run(ModelArguments arguments) {
+    ModelTask& task = arguments.task;
+    for (const std::string& text : arguments.inlets)
+        task.options.endpoints.inlets.push_back(parse_point(text, "--inlet"));
+    for (const std::string& text : arguments.outlets)
+        task.options.endpoints.outlets.push_back(parse_point(text, "--outlet"));
+    task.options.condition.check_self_intersections = !arguments.skip_self_intersections;
+    task.identity.source_file = task.surface_path;
+    task.identity.id = std::filesystem::path(arguments.output).stem().string();
+    const bool float32 = arguments.precision == "float32";
+
+    const StopOnSignal stop;
+    ScheduleOptions schedule;
+    schedule.threads = arguments.threads;
+    schedule.cancelled = StopOnSignal::flag();
+    int status = kDone;
+    const RunReport report = run_models({&task, 1}, schedule, load_task, [&](ModelRecord&& record) {
+        record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, float32);
+        write_model_file(arguments.output, record, {float32});
+        if (record.failure) {
+            fmt::print(stderr, "{}: failed in {}: {}\n", task.surface_path, stage_name(record.failure->stage),
+                       record.failure->sentence);
+            status = kModelFailed;
+        } else {
+            print_result(record, arguments.output);
+        }
+    });
+    return report.interrupted + report.not_started > 0 ? kStopped : status;
+}
+
+void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
+    PipelineOptions& o = arguments.task.options;
+    const std::map<std::string, EndpointMode> modes{
+        {"auto", EndpointMode::kAuto}, {"boundaries", EndpointMode::kBoundaries}, {"points", EndpointMode::kPoints}};
+    const std::map<std::string, Refinement> refinements{{"none", Refinement::kNone}, {"path", Refinement::kPath}};
+    const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
+    verb.add_option("--mode", o.endpoints.mode, "How endpoints are found: auto, boundaries, points")
+        ->transform(CLI::CheckedTransformer(modes))
+        ->default_str("auto");
+    verb.add_option("--refine", o.trace.refine, "Line: none (as traced) or path (relaxed on the complex)")
+        ->transform(CLI::CheckedTransformer(refinements))
+        ->default_str("path");
+    verb.add_option("--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all")
+        ->transform(CLI::CheckedTransformer(pairs))
+        ->default_str("nearest");
+    verb.add_option("--weld-tolerance", o.condition.weld_tolerance,
+                    "Share of the diagonal within which vertices are one")
+        ->check(CLI::Range(0.0, 0.01))
+        ->capture_default_str();
+    verb.add_option("--extension-radii", o.condition.extension_radii,
+                    "Length of the extensions in radii of their opening")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    verb.add_flag("--skip-self-intersections", arguments.skip_self_intersections, "Do not look for self-intersections");
+}
+
+}  // namespace
+
+void add_model(CLI::App& app, std::function<int()>& action) {
+    auto arguments = std::make_shared<ModelArguments>();
+    ModelTask& task = arguments->task;
+    CLI::App* verb = app.add_subcommand("model", "Compute one surface into one model file");
+    verb->add_option("SURFACE", task.surface_path, "Triangle surface: STL, PLY, OBJ, OFF, legacy VTK")->required();
+    verb->add_option("-o,--output", arguments->output, "Model file to write; .hdf opens in ParaView")->required();
+    verb->add_option("--inlet", arguments->inlets, "Inlet point X,Y,Z; may be repeated")->take_all();
+    verb->add_option("--outlet", arguments->outlets, "Outlet point X,Y,Z; may be repeated")->take_all();
+    verb->add_option("--scale", task.scale, "Factor for the file's coordinates")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    verb->add_option("--length-unit", task.identity.length_unit, "Unit after scaling, for the archive")
+        ->capture_default_str();
+    verb->add_option("--coordinate-system", task.identity.coordinate_system, "LPS, RAS or unknown")
+        ->check(CLI::IsMember({"LPS", "RAS", "unknown"}))
+        ->capture_default_str();
+    verb->add_option("--precision", arguments->precision, "Of scalar fields in the file: float32 or float64")
+        ->check(CLI::IsMember({"float32", "float64"}))
+        ->capture_default_str();
+    verb->add_option("--threads", arguments->threads, "Threads to use; all if not given")->check(CLI::PositiveNumber);
+    add_stage_options(*verb, *arguments);
+    verb->footer(
+        "Points are in the unit after scaling. Write negative coordinates as --inlet=-1,2,3.\n"
+        "Exit status: 0 ok or warning, 1 the model failed, 2 usage error, 3 stopped.");
+    verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace lumenline

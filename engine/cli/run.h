@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace lumenline {
+
+/// Exit status of the program, as documented in README and --help.
+enum ExitStatus : int {
+    kDone = 0,         ///< all models ok or warning
+    kModelFailed = 1,  ///< at least one model failed, the rest is complete
+    kUsage = 2,        ///< usage or configuration error; nothing was computed
+    kStopped = 3,      ///< interrupted
+};
+
+/// Adds the verb `run COHORT.yaml`: computes a cohort into its archive.
+void add_run(CLI::App& app, std::function<int()>& action);
+
+/// Adds the verb `model SURFACE -o OUT.hdf`: computes one surface into one model file.
+void add_model(CLI::App& app, std::function<int()>& action);
+
+}  // namespace lumenline
