@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that Lumenline needs, where they are missing.
+# Usage: bash examples/setup.sh build [test]
+set -euo pipefail
+packages_build=(
+    g++ cmake ninja-build git ca-certificates
+    libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
+    libtbb-dev libopenmesh-dev libhdf5-dev libssl-dev
+    libyaml-cpp-dev libcli11-dev libfmt-dev)
+packages_test=(libgtest-dev libbenchmark-dev nlohmann-json3-dev)
+
+wanted=()
+for group in "$@"; do
+    case "$group" in
+        build) wanted+=("${packages_build[@]}") ;;
+        test) wanted+=("${packages_test[@]}") ;;
+        *) echo "setup.sh: unknown group '$group'; known: build, test" >&2; exit 2 ;;
+    esac
+done
+missing=()
+for package in "${wanted[@]}"; do
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+[ "${#missing[@]}" -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+    echo "setup.sh: this is no Debian system; please install: ${missing[*]}" >&2
+    exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+        echo "setup.sh: neither root nor sudo; please have installed: ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+echo "Installing Debian packages: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Builds Lumenline and runs its tests: all but those labelled `long`; with --all, those too.
+# Usage: bash tests/run.sh [--all]
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+exclude=(--label-exclude '^long$')
+case "${1:-}" in
+    --all) exclude=() ;;
+    "") ;;
+    *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
+esac
+bash "$root/examples/setup.sh" build test
+cd "$root"
+cmake --preset release -DLUMENLINE_TESTS=ON -DLUMENLINE_BENCH=ON
+cmake --build --preset release
+ctest --test-dir build/release --output-on-failure --no-tests=error --parallel "$(nproc)" "${exclude[@]}"
