@@ -6,25 +6,28 @@
 #include <cstddef>
 
 // The extension is the prism over the loop's projection between two heights. A triangle that reaches
-// between them is sampled at the spacing of the opening's edge: since the prism is taken one edge
-// wider than it is, nothing passes between the samples. The lower height lies above the loop by a
-// quarter of an edge, which leaves out the wall beside it.
+// between them is sampled at the margin by which the prism is taken wider than it is: nothing passes
+// between the samples. The margin is less than an edge, for the legs of a hairpin may be that close
+// all along without harm. The lower height lies above the loop by a quarter of an edge, which leaves
+// out the wall beside it.
 
 namespace lumenline {
 namespace {
 
 constexpr double kClearOfLoop = 0.25;  // lower end of the prism above the loop, in edges
+constexpr double kMargin = 0.4;        // around the prism, in edges
 constexpr int kMostSamples = 256;      // along a triangle's side; longer triangles are sampled more coarsely
 
 class Prism {
 public:
     Prism(const OpeningPlan& plan, double length)
         : plan_(plan),
+          margin_(kMargin * plan.edge),
           low_(plan.highest + kClearOfLoop * plan.edge),
           high_(plan.highest + length + plan.edge),
-          reach_(plan.edge),
+          reach_(margin_),
           sides_(sides_of(plan.outline)) {
-        for (const Vec2& q : plan.outline) reach_ = std::max(reach_, norm(q) + plan.edge);
+        for (const Vec2& q : plan.outline) reach_ = std::max(reach_, norm(q) + margin_);
     }
 
     [[nodiscard]] double height(Vec3 p) const { return plan_.frame.height(p); }
@@ -39,7 +42,7 @@ public:
             std::min({q[0].y, q[1].y, q[2].y}) > reach_ || std::max({q[0].y, q[1].y, q[2].y}) < -reach_)
             return false;
         const double longest = std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
-        const double wanted = std::ceil(longest / plan_.edge);
+        const double wanted = std::ceil(longest / margin_);
         const int n = wanted < kMostSamples ? std::max(1, static_cast<int>(wanted)) : kMostSamples;
         const std::array<double, 3> h{height(t[0]), height(t[1]), height(t[2])};
         if (n == 1 && contains((1.0 / 3) * (q[0] + q[1] + q[2]), (h[0] + h[1] + h[2]) / 3)) return true;
@@ -55,11 +58,11 @@ public:
 
 private:
     [[nodiscard]] bool contains(Vec2 q, double h) const {
-        return h > low_ && h < high_ && norm(q) < reach_ && depth_among(sides_, q) > -plan_.edge;
+        return h > low_ && h < high_ && norm(q) < reach_ && depth_among(sides_, q) > -margin_;
     }
 
     const OpeningPlan& plan_;
-    double low_, high_, reach_;
+    double margin_, low_, high_, reach_;
     std::vector<Side> sides_;
 };
 

@@ -16,7 +16,7 @@ public:
     /// Adds the surface that closes `plan`.
     void add(const OpeningPlan& plan, const Patch& patch);
 
-    /// Whether something lies within one edge of the extension of `plan` by `length`.
+    /// Whether something lies within 0.4 edges beside, or one edge before, the extension of `plan` by `length`.
     [[nodiscard]] bool in_the_way(const OpeningPlan& plan, double length) const;
 
 private:
