@@ -19,8 +19,9 @@ std::string short_text(double value, int digits) {
 }
 
 std::string short_text(Vec3 point, int digits) {
-    return "(" + short_text(point.x, digits) + ", " + short_text(point.y, digits) + ", " + short_text(point.z, digits) +
-           ")";
+    std::string text = "(";
+    text.append(short_text(point.x, digits)).append(", ").append(short_text(point.y, digits));
+    return text.append(", ").append(short_text(point.z, digits)).append(")");
 }
 
 std::string counted(std::size_t count, const std::string& noun) {

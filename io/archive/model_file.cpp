@@ -192,6 +192,7 @@ void write_facts(Writer& writer, const RunFacts& facts) {
     writer.number(names::kThreads, std::int32_t{facts.threads});
 
     std::vector<std::string> stages;
+    stages.reserve(kStageCount);
     for (int stage = 0; stage < kStageCount; ++stage) stages.emplace_back(stage_name(static_cast<Stage>(stage)));
     writer.strings(names::kTimingStage, stages);
     writer.column(names::kTimingSeconds, std::vector<double>(facts.stage_seconds.begin(), facts.stage_seconds.end()));

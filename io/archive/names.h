@@ -21,7 +21,8 @@ inline constexpr std::string_view kLength = "length";
 
 // clang-format off
 inline constexpr const char* kSurface = "/surface";
-inline constexpr Field kSurfacePoints{"/surface/points", "length", "sites: vertices of the conditioned, closed surface"};
+inline constexpr Field kSurfacePoints{"/surface/points", "length",
+    "sites: vertices of the conditioned, closed surface"};
 inline constexpr Field kTriangles{"/surface/triangles", "1", "sites of each triangle, counter-clockwise from outside"};
 inline constexpr Field kNormals{"/surface/normals", "1", "unit outward normal of each site, angle-weighted"};
 inline constexpr Field kInputVertex{"/surface/input_vertex", "1", "vertex of the source file; -1 = added"};
@@ -41,7 +42,8 @@ inline constexpr Field kAnchor{"/endpoints/anchor", "length", "point on the Voro
 inline constexpr Field kAnchorRadius{"/endpoints/anchor_radius", "length", "ball radius at the anchor"};
 
 inline constexpr const char* kVoronoi = "/voronoi";
-inline constexpr Field kVertices{"/voronoi/vertices", "length", "inner Voronoi vertices: centres of maximal empty balls"};
+inline constexpr Field kVertices{"/voronoi/vertices", "length",
+    "inner Voronoi vertices: centres of maximal empty balls"};
 inline constexpr Field kBallRadius{"/voronoi/ball_radius", "length", "radius of the ball of each vertex"};
 inline constexpr Field kPolygonOffsets{"/voronoi/polygon_offsets", "1", "start of each polygon in polygon_vertices"};
 inline constexpr Field kPolygonVertices{"/voronoi/polygon_vertices", "1", "loops in order; two vertices = a bare edge"};
@@ -76,7 +78,8 @@ inline constexpr Field kCode{"/diagnostics/code", "1", "stable name of the findi
 inline constexpr Field kSeverity{"/diagnostics/severity", "1", "note | warning | error"};
 inline constexpr Field kStage{"/diagnostics/stage", "1", "stage that made the finding"};
 inline constexpr Field kMessage{"/diagnostics/message", "1", "one sentence"};
-inline constexpr Field kValue{"/diagnostics/value", "1", "what was measured, in the unit the message states; NaN = none"};
+inline constexpr Field kValue{"/diagnostics/value", "1",
+    "what was measured, in the unit the message states; NaN = none"};
 inline constexpr Field kLimit{"/diagnostics/limit", "1", "what it was held against; NaN = none"};
 
 inline constexpr Field kHost{"/provenance/host", "1", "machine that computed the model"};

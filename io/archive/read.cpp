@@ -89,13 +89,13 @@ struct ArchiveFile::Impl {
         }
     }
 
-    Values open(const std::string& dataset) const {
+    [[nodiscard]] Values open(const std::string& dataset) const {
         Values values = Values::dataset(file.get(), dataset);
         values.require_within(bytes);
         return values;
     }
 
-    std::vector<std::string> attribute_names(const std::string& object) const {
+    [[nodiscard]] std::vector<std::string> attribute_names(const std::string& object) const {
         std::vector<std::string> found;
         hsize_t position = 0;
         hdf::checked(H5Aiterate_by_name(file.get(), object.c_str(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name,
@@ -104,14 +104,14 @@ struct ArchiveFile::Impl {
         return found;
     }
 
-    std::optional<std::string> attribute(const std::string& object, const std::string& name) const {
+    [[nodiscard]] std::optional<std::string> attribute(const std::string& object, const std::string& name) const {
         if (hdf::checked(H5Aexists_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT), object) == 0)
             return std::nullopt;
         const Values values = Values::attribute(file.get(), object, name);
         return joined(values.texts(0, values.rows()), ", ");
     }
 
-    std::vector<std::pair<std::string, H5O_type_t>> objects() const {
+    [[nodiscard]] std::vector<std::pair<std::string, H5O_type_t>> objects() const {
         Collected collected;
         const herr_t status =
             H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, collect_object, &collected, H5O_INFO_BASIC);
@@ -131,6 +131,7 @@ struct ArchiveFile::Impl {
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
     if (shape.empty()) return "scalar";
     std::vector<std::string> lengths;
+    lengths.reserve(shape.size());
     for (const std::uint64_t length : shape) lengths.push_back(std::to_string(length));
     std::string text = "(";
     return text.append(joined(lengths, ", ")).append(")");
@@ -246,6 +247,7 @@ void ArchiveFile::Impl::print_attribute(const std::string& object, const std::st
     const auto all = objects();
     if (std::none_of(all.begin(), all.end(), [&](const auto& o) { return o.first == object; })) {
         std::vector<std::string> known;
+        known.reserve(all.size());
         for (const auto& [path_in_file, type] : all) known.push_back(path_in_file);
         throw UnknownName("'" + path.string() + "' has no object '" + printable(object) + "'" +
                           nearest_names(object, known));

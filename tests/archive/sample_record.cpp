@@ -1,0 +1,189 @@
+// The values are arbitrary but exact in no short decimal (thirds, sevenths), so that a loss of
+// precision anywhere shows.
+
+#include "tests/archive/sample_record.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace lumenline {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::shared_ptr<const Surface> sample_surface() {
+    auto surface = std::make_shared<Surface>();
+    surface->points = {{0, 0, 1.0 / 3}, {1, 0, 0}, {-0.5, 0.866, 0}, {-0.5, -0.866, 0}, {0, 0, -1.0 / 7}};
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {4, 2, 1}, {4, 3, 2}, {4, 1, 3}})
+        surface->triangles.push_back({SiteId(static_cast<std::size_t>(a)), SiteId(static_cast<std::size_t>(b)),
+                                      SiteId(static_cast<std::size_t>(c))});
+    for (const Vec3& p : surface->points) surface->normals.push_back(normalized(p));
+    surface->input_vertex = {0, 1, 2, SiteId::kNoneValue, SiteId::kNoneValue};
+    surface->origin = {SiteOrigin::kWall, SiteOrigin::kWall, SiteOrigin::kWall, SiteOrigin::kExtension,
+                       SiteOrigin::kCap};
+    surface->cap = {OpeningId(), OpeningId(0), OpeningId(1), OpeningId(2), OpeningId(), OpeningId(1)};
+    surface->openings.resize(3);
+    surface->diagonal = 2.0 / 3;
+    surface->median_edge = 1.0 / 7;
+    surface->coordinate_rounding = 1e-8;
+    surface->genus = 1;
+    return surface;
+}
+
+std::shared_ptr<const VoronoiComplex> sample_complex() {
+    auto complex = std::make_shared<VoronoiComplex>();
+    for (int i = 0; i < 7; ++i) {
+        complex->vertices.push_back({i / 7.0, i / 9.0, -i / 3.0});
+        complex->ball_radius.push_back(0.1 + i / 11.0);
+        complex->vertex_site.emplace_back(static_cast<std::size_t>(i % 5));
+    }
+    complex->polygon_offsets = {0, 4, 6, 9};
+    for (const std::size_t v : {0, 1, 2, 3, 3, 4, 4, 5, 6}) complex->polygon_vertices.emplace_back(v);
+    complex->polygon_sites = {{SiteId(0), SiteId(1)}, {SiteId(), SiteId()}, {SiteId(2), SiteId(3)}};
+    complex->pole = {VoronoiVertexId(0), VoronoiVertexId(3), VoronoiVertexId(), VoronoiVertexId(6), VoronoiVertexId(2)};
+    return complex;
+}
+
+std::shared_ptr<const Endpoints> sample_endpoints() {
+    auto endpoints = std::make_shared<Endpoints>(4);
+    for (std::size_t e = 0; e < endpoints->size(); ++e) {
+        Endpoint& endpoint = (*endpoints)[e];
+        endpoint.point = {e / 3.0, 1, 2};
+        endpoint.normal = {0, 0, 1};
+        endpoint.radius = 0.3 + e / 7.0;
+        endpoint.anchor = {e / 9.0, 1, 2};
+        endpoint.anchor_radius = 0.2;
+    }
+    // The second opening is the first endpoint; the third opening is none.
+    (*endpoints)[0].opening = OpeningId(1);
+    (*endpoints)[0].role = EndpointRole::kInlet;
+    (*endpoints)[1].opening = OpeningId(0);
+    for (const std::size_t given : {2, 3}) {
+        (*endpoints)[given].kind = EndpointKind::kPoint;
+        (*endpoints)[given].normal = {};
+    }
+    return endpoints;
+}
+
+std::shared_ptr<const ArrivalField> sample_field(std::size_t source, double unreached) {
+    auto field = std::make_shared<ArrivalField>();
+    field->source = EndpointId(source);
+    field->time = {0, 1.0 / 3, 2.0 / 3, 1, 4.0 / 3, 5.0 / 3, unreached};
+    field->reached = unreached == kInfinity ? 6 : 7;
+    field->residual = 1e-9;
+    return field;
+}
+
+std::shared_ptr<const Centerlines> sample_lines() {
+    auto lines = std::make_shared<Centerlines>();
+    lines->offsets = {0, 5, 9};
+    for (int k = 0; k < 9; ++k) {
+        const int along = k < 5 ? k : k - 5;
+        lines->points.push_back({along / 3.0, 0, 0});
+        lines->abscissa.push_back(along / 3.0);
+        lines->ball_radius.push_back(0.5 + k / 7.0);
+        lines->clearance.push_back(0.4 + k / 7.0);
+        lines->radius.push_back(0.45 + k / 7.0);
+    }
+    lines->source = {EndpointId(0), EndpointId(0)};
+    lines->target = {EndpointId(1), EndpointId(3)};
+    lines->path.offsets = {0, 6, 11};
+    for (int q = 0; q < 11; ++q) {
+        const int along = q < 6 ? q : q - 6;
+        lines->path.points.push_back({along / 4.0, 0, 0});
+        lines->path.ball_radius.push_back(0.5);
+        lines->path.abscissa.push_back(along / 4.0);
+        lines->path.line_abscissa.push_back(along / 4.1);
+    }
+    return lines;
+}
+
+}  // namespace
+
+ModelRecord sample_record(const std::string& id) {
+    ModelRecord record;
+    ModelIdentity& who = record.identity;
+    who.id = id;
+    who.subject = "sub-01";
+    who.session = "ses-2";
+    who.side = "L";
+    who.structure = "aorta";
+    who.group = "control";
+    who.length_unit = "mm";
+    who.coordinate_system = "LPS";
+    who.source_file = "surfaces/h\xC3\xA9patique.stl";
+    who.source_sha256 = std::string(64, 'a');
+    who.inputs_sha256 = std::string(64, 'b');
+    who.covariates = {{"age", "63"}, {"sex", "f"}, {"height/m", "1.7"}};
+    record.status = ModelStatus::kWarning;
+    record.diagnostics = {{"coarse", Severity::kWarning, Stage::kCondition, "the wall is coarse", 1.0 / 3, 0.25},
+                          {"seen", Severity::kNote, Stage::kTrace, "a note"}};
+    record.surface = sample_surface();
+    record.complex = sample_complex();
+    record.endpoints = sample_endpoints();
+    record.fields = {sample_field(0, kInfinity), sample_field(2, 2)};
+    record.centerlines = sample_lines();
+    record.facts.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+    record.facts.total_seconds = 2.8;
+    record.facts.peak_resident_bytes = 123456789;
+    record.facts.threads = 2;
+    return record;
+}
+
+ModelRecord failed_record(const std::string& id) {
+    ModelRecord record = sample_record(id);
+    record.status = ModelStatus::kFailed;
+    record.failure = Failure{Stage::kEikonal, ErrorCode::kTargetUnreached, "no path from the inlet to outlet 2"};
+    record.endpoints = nullptr;
+    record.fields = {nullptr};
+    record.centerlines = nullptr;
+    return record;
+}
+
+std::filesystem::path fresh_directory(const std::string& name) {
+    std::filesystem::path directory = std::filesystem::path(::testing::TempDir()) / ("lumenline_archive_" + name);
+    std::filesystem::remove_all(directory);
+    std::filesystem::create_directories(directory);
+    return directory;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return bytes.str();
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::string difference(const ModelSummary& a, const ModelSummary& b) {
+    const ModelIdentity& p = a.identity;
+    const ModelIdentity& q = b.identity;
+    if (p.id != q.id) return "id";
+    if (p.subject != q.subject || p.session != q.session || p.side != q.side) return "subject, session or side";
+    if (p.structure != q.structure || p.group != q.group) return "structure or group";
+    if (p.length_unit != q.length_unit || p.coordinate_system != q.coordinate_system) return "unit or system";
+    if (p.source_file != q.source_file || p.source_sha256 != q.source_sha256) return "source";
+    if (p.inputs_sha256 != q.inputs_sha256) return "inputs_sha256";
+    if (p.covariates != q.covariates) return "covariates";
+    if (a.status != b.status) return "status";
+    if (a.failure.has_value() != b.failure.has_value()) return "failure";
+    if (a.failure && (a.failure->stage != b.failure->stage || a.failure->code != b.failure->code)) return "failure";
+    if (a.failure && a.failure->sentence != b.failure->sentence) return "sentence";
+    if (a.warnings != b.warnings) return "warnings";
+    if (a.sites != b.sites || a.triangles != b.triangles) return "sites or triangles";
+    if (a.voronoi_vertices != b.voronoi_vertices || a.polygons != b.polygons) return "vertices or polygons";
+    if (a.inlets != b.inlets || a.outlets != b.outlets || a.centerlines != b.centerlines) return "endpoints or lines";
+    if (a.length != b.length) return "length";
+    if (a.radius_min != b.radius_min || a.radius_max != b.radius_max) return "least or largest radius";
+    if (a.radius_mean != b.radius_mean) return "mean radius";
+    return a.seconds == b.seconds ? "" : "seconds";
+}
+
+}  // namespace lumenline
