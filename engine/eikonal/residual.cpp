@@ -42,13 +42,16 @@ double eikonal_residual(const VoronoiComplex& complex, std::span<const double> t
         const auto polygon = complex.polygon(PolygonId(p));
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const std::size_t v = at(polygon[i]);
-            if (time[v] < kInfinity) update[v] = std::min(update[v], least_offer(complex, time, polygon, i));
+            update[v] = std::min(update[v], least_offer(complex, time, polygon, i));
         }
     }
     for (const Seed& s : seeds) update[at(s.vertex)] = std::min(update[at(s.vertex)], s.time);
     double residual = 0;
-    for (std::size_t v = 0; v < time.size(); ++v)
-        if (time[v] < kInfinity && time[v] > 0) residual = std::max(residual, std::fabs(time[v] - update[v]) / time[v]);
+    for (std::size_t v = 0; v < time.size(); ++v) {
+        if (time[v] == update[v]) continue;
+        if (!(time[v] > 0 && time[v] < kInfinity)) return kInfinity;  // unreached, though an offer stands; or uncaused
+        residual = std::max(residual, std::fabs(time[v] - update[v]) / time[v]);
+    }
     return residual;
 }
 

@@ -41,6 +41,17 @@ Vec3 nearest_on_polygon(const Surface& surface, const VoronoiComplex& complex, P
     return best;
 }
 
+/// Ball radius at a point of the complex: the distance to a site of its polygon, or on a bare edge
+/// the quadratic of edges.
+double radius_at(const Surface& surface, const VoronoiComplex& complex, const NearestOnComplex& where) {
+    const PolygonId p = where.polygons.front();
+    if (const SiteId site = complex.polygon_sites[at(p)][0]; !site.is_none())
+        return distance(where.point, surface.points[at(site)]);
+    const VoronoiVertexId a = complex.polygon(p)[0], b = complex.polygon(p)[1];
+    const double length = distance(complex.vertices[at(a)], complex.vertices[at(b)]);
+    return ball_radius(complex, {a, b, length > 0 ? distance(complex.vertices[at(a)], where.point) / length : 0.0});
+}
+
 }  // namespace
 
 NearestOnComplex nearest_on_complex(const Surface& surface, const VoronoiComplex& complex, Vec3 x) {
@@ -77,11 +88,7 @@ void anchor_at_point(const Surface& surface, const VoronoiComplex& complex, cons
                      Endpoint& endpoint) {
     endpoint.anchor = where.point;
     endpoint.anchor_polygons = where.polygons;
-    const VoronoiVertexId first = complex.polygon(where.polygons.front())[0];
-    const SiteId site = complex.polygon_sites[at(where.polygons.front())][0].is_none()
-                            ? complex.vertex_site[at(first)]
-                            : complex.polygon_sites[at(where.polygons.front())][0];
-    endpoint.anchor_radius = distance(where.point, surface.points[at(site)]);
+    endpoint.anchor_radius = radius_at(surface, complex, where);
     for (const PolygonId p : where.polygons)
         for (const VoronoiVertexId v : complex.polygon(p)) {
             const double cost = segment_cost(distance(complex.vertices[at(v)], where.point),

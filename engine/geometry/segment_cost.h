@@ -15,9 +15,10 @@ namespace lumenline {
 /// @returns dimensionless; large but finite where L reaches R1 + R2 by rounding
 inline double segment_cost(double length, double radius_sum) {
     const double y = length / radius_sum;
-    if (y < 0.15) {  // the series is faster than the logarithm, and exact to 1e-13 here
+    if (y < 0.1) {  // the series is faster than the logarithm, and exact to rounding here
         const double q = y * y;
-        return 2 * y * (1 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11))))));
+        const double tail = 1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13)));
+        return 2 * y * (1 + q * (1.0 / 3 + q * (1.0 / 5 + q * tail)));
     }
     constexpr double kLargest = 1 - 1e-15;
     const double z = y < kLargest ? y : kLargest;

@@ -1,6 +1,7 @@
 // Minimises sum c(L_i, R_i + R_{i+1}), c = 2 atanh(L/S), over the positions t_i of the points on
 // their edges, 0 <= t_i <= 1. Each term joins neighbours only: the Hessian is tridiagonal. Damped
 // Newton steps with the bounds as an active set; the damping grows until the step lowers the cost.
+// Where two nodes meet the cost has a kink; they stay, or no step of the others would be accepted.
 // The derivatives are closed: with D = S^2 - L^2,
 //   c_L = 2S/D   c_S = -2L/D   c_LL = c_SS = 4SL/D^2   c_LS = -2(S^2 + L^2)/D^2.
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace {
 constexpr int kMaxSteps = 60;
 constexpr double kGradientLimit = 1e-10;  // per ball radius moved, relative to a cost of order one per radius
 constexpr double kShortEdge = 1e-9;       // of the ball radius: too short to slide on
+constexpr double kMet = 1e-7;             // of the radii: nodes this close have met and stay
 
 /// A node that slides on its edge, or stays.
 struct Node {
@@ -34,6 +36,7 @@ struct Node {
 /// Value and derivatives of one segment's cost in the two node parameters.
 struct SegmentTerms {
     double cost = 0, gx = 0, gy = 0, hxx = 0, hxy = 0, hyy = 0;
+    bool met = false;  ///< the two nodes have met: the cost has a kink there and no derivative
 };
 
 SegmentTerms segment_terms(const Node& a, const Node& b) {
@@ -42,7 +45,8 @@ SegmentTerms segment_terms(const Node& a, const Node& b) {
     const double length = norm(d), sum = ra + rb;
     SegmentTerms k;
     k.cost = segment_cost(length, sum);
-    if (!(length > 1e-12 * sum) || !(length < (1 - 1e-9) * sum)) return k;  // no direction, or the metric's pole
+    k.met = !(length > kMet * sum);
+    if (k.met || !(length < (1 - 1e-9) * sum)) return k;  // no direction, or the metric's pole
 
     const double lx = a.fixed ? 0 : -dot(a.edge, d) / length, ly = b.fixed ? 0 : dot(b.edge, d) / length;
     const double lxx = a.fixed ? 0 : (a.edge_length2 - lx * lx) / length;
@@ -74,6 +78,7 @@ public:
           gradient_(nodes_.size()),
           diagonal_(nodes_.size()),
           above_(nodes_.size()),
+          met_(nodes_.size()),
           free_(nodes_.size()),
           step_(nodes_.size()) {}
 
@@ -102,6 +107,7 @@ private:
     bool assemble() {
         std::fill(gradient_.begin(), gradient_.end(), 0.0);
         std::fill(diagonal_.begin(), diagonal_.end(), 0.0);
+        std::fill(met_.begin(), met_.end(), false);
         for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
             const SegmentTerms k = segment_terms(nodes_[i], nodes_[i + 1]);
             gradient_[i] += k.gx;
@@ -109,11 +115,12 @@ private:
             diagonal_[i] += k.hxx;
             diagonal_[i + 1] += k.hyy;
             above_[i] = k.hxy;
+            if (k.met) met_[i] = met_[i + 1] = true;
         }
         double largest = 0;
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             const Node& n = nodes_[i];
-            free_[i] = !n.fixed && !(n.t <= 0 && gradient_[i] > 0) && !(n.t >= 1 && gradient_[i] < 0);
+            free_[i] = !n.fixed && !met_[i] && !(n.t <= 0 && gradient_[i] > 0) && !(n.t >= 1 && gradient_[i] < 0);
             if (free_[i]) largest = std::max(largest, std::fabs(gradient_[i]) * n.radius_a / std::sqrt(n.edge_length2));
         }
         return largest < kGradientLimit;
@@ -165,7 +172,7 @@ private:
 
     std::vector<Node> nodes_;
     std::vector<double> gradient_, diagonal_, above_;
-    std::vector<bool> free_;
+    std::vector<bool> met_, free_;
     std::vector<double> step_;
 };
 

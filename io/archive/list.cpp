@@ -40,7 +40,7 @@ std::filesystem::path file_of(const std::filesystem::path& archive) {
     const std::filesystem::path index = archive / names::kIndexFile;
     if (!std::filesystem::exists(index, error))
         throw UnknownName("the directory '" + archive.string() + "' has no index " + names::kIndexFile +
-                          ": it is no archive, or its run has not ended (lumenline merge makes the index)");
+                          ": it is no archive, or its run has not ended: run it again to make the index");
     return index;
 }
 
@@ -83,7 +83,7 @@ std::filesystem::path find_model(const std::filesystem::path& archive, const std
     std::error_code error;
     if (!std::filesystem::exists(model, error))
         throw ArchiveError("the index names the model '" + printable(id) + "' but its file '" + model.string() +
-                           "' does not exist: run the model again, or make the index anew with lumenline merge");
+                           "' does not exist: run the cohort again");
     return model;
 }
 
