@@ -27,6 +27,12 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         return action();
+    } catch (const CLI::RequiredError& error) {
+        if (argc > 1 && app.get_subcommands().empty())
+            fmt::print(stderr, "lumenline: unknown verb or option '{}'; lumenline --help lists them\n", argv[1]);
+        else
+            app.exit(error);
+        return kUsage;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;
     } catch (const ConfigError& error) {

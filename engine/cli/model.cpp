@@ -56,6 +56,11 @@ int run(ModelArguments arguments) {
     task.options.condition.check_self_intersections = !arguments.skip_self_intersections;
     task.identity.source_file = task.surface_path;
     task.identity.id = std::filesystem::path(arguments.output).stem().string();
+    if (!(std::isfinite(task.scale) && task.scale > 0))
+        throw CLI::ValidationError("--scale", "expected a positive number");
+    std::error_code ignored;
+    if (std::filesystem::equivalent(task.surface_path, arguments.output, ignored))
+        throw CLI::ValidationError("--output", "this is the surface itself, which would be overwritten");
     const bool float32 = arguments.precision == "float32";
 
     const StopOnSignal stop;
@@ -113,9 +118,7 @@ void add_model(CLI::App& app, std::function<int()>& action) {
     verb->add_option("-o,--output", arguments->output, "Model file to write; .hdf opens in ParaView")->required();
     verb->add_option("--inlet", arguments->inlets, "Inlet point X,Y,Z; may be repeated")->take_all();
     verb->add_option("--outlet", arguments->outlets, "Outlet point X,Y,Z; may be repeated")->take_all();
-    verb->add_option("--scale", task.scale, "Factor for the file's coordinates")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    verb->add_option("--scale", task.scale, "Factor for the file's coordinates")->capture_default_str();
     verb->add_option("--length-unit", task.identity.length_unit, "Unit after scaling, for the archive")
         ->capture_default_str();
     verb->add_option("--coordinate-system", task.identity.coordinate_system, "LPS, RAS or unknown")

@@ -50,7 +50,7 @@ ModelSummary store(ModelRecord record, const ModelTask& task, const ArchiveSetti
 std::vector<ModelTask> select(const CohortConfig& config, const std::vector<std::string>& only) {
     if (only.empty()) return config.tasks;
     std::vector<ModelTask> chosen;
-    for (const std::string& id : only) {
+    for (const std::string& id : std::set<std::string>(only.begin(), only.end())) {
         const auto found = std::find_if(config.tasks.begin(), config.tasks.end(),
                                         [&](const ModelTask& t) { return t.identity.id == id; });
         if (found == config.tasks.end()) throw CLI::ValidationError("--only", "the cohort has no model '" + id + "'");
@@ -77,12 +77,16 @@ std::vector<ModelSummary> gather(const CohortConfig& config, std::map<std::strin
     return rows;
 }
 
-void print_results(const CohortConfig& config, const std::vector<ModelSummary>& rows, const RunReport& report) {
+/// How this run's models ended.
+using Counts = std::map<ModelStatus, std::size_t>;
+
+void print_results(const CohortConfig& config, const std::vector<ModelSummary>& rows, Counts counts,
+                   const RunReport& report) {
     to_standard_output([&](std::ostream& out) {
         print_models(out, rows);
-        out << fmt::format("\n{} ok, {} with warnings, {} failed; {:.1f} s on {}\narchive: {}\n", report.ok,
-                           report.warning, report.failed, report.seconds,
-                           counted(static_cast<std::size_t>(report.threads), "thread"),
+        out << fmt::format("\n{} ok, {} with warnings, {} failed; {:.1f} s on {}\narchive: {}\n",
+                           counts[ModelStatus::kOk], counts[ModelStatus::kWarning], counts[ModelStatus::kFailed],
+                           report.seconds, counted(static_cast<std::size_t>(report.threads), "thread"),
                            config.archive.directory.string());
     });
 }
@@ -108,17 +112,17 @@ int run(const RunArguments& arguments) {
         done.emplace(summary.identity.id, std::move(summary));
     });
     progress.finish();
-    std::size_t failed = 0;
-    for (const auto& [id, summary] : done) failed += summary.failure ? 1 : 0;
+    Counts counts;
+    for (const auto& [id, summary] : done) ++counts[summary.status];
     const std::vector<ModelSummary> rows = gather(config, std::move(done));
     write_index(config.archive.directory, rows, config.text, resolved_text(config));
-    print_results(config, rows, report);
+    print_results(config, rows, counts, report);
     if (report.interrupted + report.not_started > 0) {
         fmt::print(stderr, "stopped: {} not done; run the same command again\n",
                    counted(report.interrupted + report.not_started, "model"));
         return kStopped;
     }
-    return failed > 0 ? kModelFailed : kDone;
+    return counts[ModelStatus::kFailed] > 0 ? kModelFailed : kDone;
 }
 
 }  // namespace

@@ -23,6 +23,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "engine/schedule/handover.h"
+
 namespace lumenline {
 
 namespace {
@@ -41,10 +43,14 @@ public:
                       const std::function<void(std::size_t, std::size_t)>& body) const override {
         const std::size_t chunks = (count + grain - 1) / grain;
         tbb::this_task_arena::isolate([&] {
+            handed_on(&count);
             tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+                taken(&count);
                 check_cancelled();
                 body(chunk * grain, std::min((chunk + 1) * grain, count));
+                handed_on(&chunks);
             });
+            taken(&chunks);
         });
     }
 };
@@ -65,33 +71,14 @@ public:
           sink_(sink),
           report_(report),
           admission_(graph_, flow::serial, [this](int change, auto& ports) { admit(change, ports); }),
-          load_(graph_, flow::unlimited,
-                [this](JobPtr job) {
-                    job->load(loader_);
-                    return job;
-                }),
-          condition_(graph_, flow::unlimited,
-                     [](JobPtr job) {
-                         job->condition();
-                         return job;
-                     }),
-          voronoi_(graph_, flow::unlimited,
-                   [](JobPtr job) {
-                       job->build_complex();
-                       return job;
-                   }),
+          load_(graph_, flow::unlimited, [this](const JobPtr& job) { return step(job, [&] { job->load(loader_); }); }),
+          condition_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->condition(); }); }),
+          voronoi_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->build_complex(); }); }),
           endpoints_(graph_, flow::unlimited,
-                     [](JobPtr job) {
-                         job->find_endpoints();
-                         return job;
-                     }),
+                     [](const JobPtr& job) { return step(job, [&] { job->find_endpoints(); }); }),
           fan_out_(graph_, flow::unlimited, [](const JobPtr& job, auto& ports) { fan_out(job, ports); }),
           eikonal_(graph_, flow::unlimited, [this](const SourceOfJob& source, auto& ports) { solve(source, ports); }),
-          trace_(graph_, flow::unlimited,
-                 [](JobPtr job) {
-                     job->trace();
-                     return job;
-                 }),
+          trace_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->trace(); }); }),
           writer_(graph_, flow::serial, [this](const JobPtr& job) { return write(*job); }) {
         flow::make_edge(flow::output_port<0>(admission_), load_);
         flow::make_edge(load_, condition_);
@@ -106,8 +93,10 @@ public:
     }
 
     void run(int in_flight) {
+        handed_on(this);
         admission_.try_put(in_flight);
         graph_.wait_for_all();
+        taken(this);
         report_.not_started = tasks_.size() - next_;
         if (sink_failure_) std::rethrow_exception(sink_failure_);
         const std::size_t known =
@@ -124,15 +113,27 @@ private:
 
     [[nodiscard]] bool stopped() const { return sink_failed_ || (cancelled_ != nullptr && cancelled_->load()); }
 
+    /// One stage of a job, and the job again.
+    template <class Body>
+    static JobPtr step(const JobPtr& job, const Body& body) {
+        const Handover scope(job.get());
+        body();
+        return job;
+    }
+
     /// Lets `places` more models in.
     void admit(int places, Admission::output_ports_type& ports) {
+        const Handover scope(this);
         for (; places > 0 && next_ < tasks_.size() && !stopped(); --places) {
             const auto context = [this](Stage stage) { return std::make_unique<ParallelContext>(stage, cancelled_); };
-            std::get<0>(ports).try_put(std::make_shared<ModelJob>(tasks_[next_++], context, cancelled_));
+            const auto job = std::make_shared<ModelJob>(tasks_[next_++], context, cancelled_);
+            handed_on(job.get());
+            std::get<0>(ports).try_put(job);
         }
     }
 
     static void fan_out(const JobPtr& job, FanOut::output_ports_type& ports) {
+        taken(job.get());
         if (job->failed()) {
             std::get<1>(ports).try_put(job);
             return;
@@ -141,12 +142,17 @@ private:
     }
 
     void solve(const SourceOfJob& source, Solver::output_ports_type& ports) {
-        source.first->solve(source.second, workspaces_.local());
+        {
+            const Handover scope(source.first.get());
+            source.first->solve(source.second, workspaces_.local());
+        }
         if (source.first->last_source_done()) std::get<0>(ports).try_put(source.first);
     }
 
     /// Hands the record on and frees its place.
     int write(ModelJob& job) {
+        taken(&job);
+        const Handover scope(this);
         const bool interrupted = job.interrupted();
         ModelRecord record = job.take();
         record.facts.peak_resident_bytes = peak_resident_bytes();

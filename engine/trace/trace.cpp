@@ -16,8 +16,9 @@ namespace lumenline {
 
 namespace {
 
-constexpr double kMinStep = 1e-2;       // of the ball radius, between points of a path
-constexpr double kUndersampled = 0.05;  // (R - clearance) / R
+constexpr double kMinStep = 1e-2;         // of the ball radius, between points of a path
+constexpr double kUnreachedWall = 0.005;  // of the wall's sites
+constexpr double kUndersampled = 0.05;    // (R - clearance) / R
 
 /// Arrival time at a target's anchor: the least over the vertices of the polygons that hold it.
 double arrival_at(const ArrivalField& field, const Endpoint& target) {
@@ -167,6 +168,28 @@ private:
     Vec3 gap_at_;
 };
 
+/// Says where the lumen was not reached from any source: vessels that hang on it by no Voronoi edge,
+/// or components without an inlet.
+void report_unreached_wall(const Surface& surface, const VoronoiComplex& complex,
+                           std::span<const std::shared_ptr<const ArrivalField>> fields, StageContext& context) {
+    std::size_t wall = 0, unreached = 0;
+    Vec3 place;
+    for (std::size_t i = 0; i < surface.site_count(); ++i) {
+        if (surface.origin[i] != SiteOrigin::kWall) continue;
+        ++wall;
+        const VoronoiVertexId pole = complex.pole[i];
+        const auto reaches = [&](const auto& f) { return f->time[at(pole)] < std::numeric_limits<double>::infinity(); };
+        if (!pole.is_none() && std::any_of(fields.begin(), fields.end(), reaches)) continue;
+        if (unreached++ == 0) place = surface.points[i];
+    }
+    const double share = wall > 0 ? static_cast<double>(unreached) / static_cast<double>(wall) : 0;
+    if (share > kUnreachedWall)
+        context.warn("wall_unreached",
+                     short_text(100 * share, 3) + " % of the wall, the first of it at " + short_text(place) +
+                         ", belongs to parts of the lumen that no front reached from an inlet: they have no lines",
+                     share, kUnreachedWall);
+}
+
 }  // namespace
 
 Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
@@ -192,6 +215,7 @@ Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& comp
         else if (options.pairs == Pairs::kNearest)
             collector.add(*nearest, target);
     }
+    report_unreached_wall(surface, complex, fields, context);
     return collector.finish();
 }
 

@@ -17,7 +17,8 @@ namespace lumenline {
 /// section 2.1), relaxed on the complex, cut at the openings' planes, and verified.
 ///
 /// A target that no front reached, and a line that would leave the lumen, are errors of that target
-/// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced.
+/// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced. Parts of
+/// the wall that no front reached are a warning (wall_unreached).
 /// @param fields  one per source, each with its source set
 /// @returns lines ordered by target, then source
 /// @throws StageError kNoLineTraced when not one target has a line

@@ -133,6 +133,8 @@ private:
     std::vector<Step> loop_;
 };
 
+}  // namespace
+
 void build_incidence(VoronoiComplex& complex) {
     auto& offsets = complex.vertex_offsets;
     offsets.assign(complex.vertex_count() + 1, 0);
@@ -144,8 +146,6 @@ void build_incidence(VoronoiComplex& complex) {
         for (const VoronoiVertexId v : complex.polygon(PolygonId(p)))
             complex.vertex_polygons[next[at(v)]++] = PolygonId(p);
 }
-
-}  // namespace
 
 MergedVertices merge_vertices(const InsideCells& cells, double relative, double absolute) {
     std::vector<std::uint32_t> parent(cells.count());
@@ -186,7 +186,6 @@ void build_polygons(const InsideCells& cells, const MergedVertices& merged, Voro
         complex.vertex_site[v] = SiteId(cells.sites[cell][0]);
     }
     PolygonBuilder(cells, merged, complex).run();
-    build_incidence(complex);
 }
 
 }  // namespace lumenline

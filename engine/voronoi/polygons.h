@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/core/surface.h"
 #include "engine/core/voronoi_complex.h"
 #include "engine/voronoi/inside_cells.h"
 
@@ -17,8 +18,20 @@ struct MergedVertices {
 /// @cost O(cells)
 MergedVertices merge_vertices(const InsideCells& cells, double relative, double absolute);
 
-/// Fills vertices, radii, polygons, bare edges and vertex-polygon incidence of the complex.
+/// Joins parts of the complex that hang together through the lumen but not through Voronoi edges: at
+/// a waist narrower than a triangle circumcentres lie outside and the chain breaks. Vertices on both
+/// sides share a site p there, so that the radius along a bare edge between them is |x - p| as on any
+/// other. Shortest first, only between different parts, only inside the lumen.
+/// @returns the number of edges added
+/// @cost O(V)
+std::size_t bridge_gaps(const Surface& surface, const InsideCells& cells, const MergedVertices& merged,
+                        VoronoiComplex& complex);
+
+/// Fills vertices, radii, polygons and bare edges of the complex.
 /// @cost O(cells)
 void build_polygons(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex);
+
+/// Fills the incidence of vertices and polygons, when all polygons are there.
+void build_incidence(VoronoiComplex& complex);
 
 }  // namespace lumenline

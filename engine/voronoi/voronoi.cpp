@@ -46,11 +46,17 @@ VoronoiComplex build_voronoi(const Surface& surface, const VoronoiOptions& optio
 
     VoronoiComplex complex;
     build_polygons(cells, merged, complex);
+    const std::size_t bridges = bridge_gaps(surface, cells, merged, complex);
+    build_incidence(complex);
     complex.pole = find_poles(cells, merged, surface.site_count());
     for (const auto& [duplicate, kept] : duplicates) complex.pole[duplicate] = complex.pole[kept];
     if (!duplicates.empty())
         context.note("coincident_sites", counted(duplicates.size(), "site") + " at the place of another share its pole",
                      static_cast<double>(duplicates.size()));
+    if (bridges > 0)
+        context.note("gaps_bridged",
+                     counted(bridges, "edge") + " added where parts of the lumen hang together by less than a triangle",
+                     static_cast<double>(bridges));
     if (cells.cut_edges > 0)
         context.note(
             "voronoi_edges_cut",
