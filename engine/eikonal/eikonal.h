@@ -11,6 +11,9 @@
 
 namespace lumenline {
 
+/// Every vertex of this number is looked at for the residual that a field carries.
+inline constexpr std::size_t kResidualStride = 16;
+
 /// Scratch of solve_eikonal; reusable from call to call, one per concurrent solve.
 struct EikonalWorkspace {
     std::vector<TimedPoint> nodes;
@@ -36,7 +39,9 @@ ArrivalField solve_eikonal(const VoronoiComplex& complex, std::span<const Seed> 
 /// How far a field is from the fixed point of its update: the largest |T(v) - U(v)| / T(v), U(v) the
 /// least arrival that any earlier vertex or edge of a polygon around v offers, or the seed's time. A
 /// time without a cause shows as much as one that is too late.
-/// @cost O(sum over polygons of vertices squared), half a march
-double eikonal_residual(const VoronoiComplex& complex, std::span<const double> time, std::span<const Seed> seeds);
+/// @param stride  looks at every stride-th vertex only
+/// @cost half a march, divided by the stride
+double eikonal_residual(const VoronoiComplex& complex, std::span<const double> time, std::span<const Seed> seeds,
+                        std::size_t stride = 1);
 
 }  // namespace lumenline

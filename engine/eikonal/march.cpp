@@ -71,8 +71,7 @@ private:
             double best = from.time < target.time ? vertex_arrival(from, target.x, target.radius) : target.time;
             for (const TimedPoint* end : edge_ends) {
                 if (end == nullptr || end == &target || !(std::min(from.time, end->time) < target.time)) continue;
-                const Arrival across = edge_arrival(from, *end, target.x, target.radius);
-                if (across.t > 0 && across.t < 1) best = std::min(best, across.time);
+                best = std::min(best, inner_arrival(from, *end, target.x, target.radius));
             }
             offer(w, best);
         }
@@ -94,7 +93,7 @@ ArrivalField solve_eikonal(const VoronoiComplex& complex, std::span<const Seed> 
     field.reached = march.run(context);
     field.time.resize(complex.vertex_count());
     for (std::size_t v = 0; v < field.time.size(); ++v) field.time[v] = work.nodes[v].time;
-    field.residual = eikonal_residual(complex, field.time, seeds);
+    field.residual = eikonal_residual(complex, field.time, seeds, kResidualStride);
     return field;
 }
 

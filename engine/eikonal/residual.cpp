@@ -1,4 +1,4 @@
-// Every offer of every polygon is made again on the finished field. Only an edge or vertex earlier
+// Every offer of the polygons around a vertex is made again on the finished field. Only an edge or vertex earlier
 // than v can be the cause of its time, which spares half the work.
 #include <algorithm>
 #include <cmath>
@@ -28,29 +28,32 @@ double least_offer(const VoronoiComplex& complex, std::span<const double> time,
         if (i != target && ti < w.time) least = std::min(least, vertex_arrival(node(i), w.x, w.radius));
         const bool opposite = i != target && j != target && n > 2;
         if (!opposite || !(std::min(ti, tj) < w.time) || !(std::max(ti, tj) < kInfinity)) continue;
-        const Arrival across = edge_arrival(node(i), node(j), w.x, w.radius);
-        if (across.t > 0 && across.t < 1) least = std::min(least, across.time);
+        least = std::min(least, inner_arrival(node(i), node(j), w.x, w.radius));
     }
     return least;
 }
 
 }  // namespace
 
-double eikonal_residual(const VoronoiComplex& complex, std::span<const double> time, std::span<const Seed> seeds) {
-    std::vector<double> update(complex.vertex_count(), kInfinity);
-    for (std::size_t p = 0; p < complex.polygon_count(); ++p) {
-        const auto polygon = complex.polygon(PolygonId(p));
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const std::size_t v = at(polygon[i]);
-            update[v] = std::min(update[v], least_offer(complex, time, polygon, i));
-        }
-    }
-    for (const Seed& s : seeds) update[at(s.vertex)] = std::min(update[at(s.vertex)], s.time);
+double eikonal_residual(const VoronoiComplex& complex, std::span<const double> time, std::span<const Seed> seeds,
+                        std::size_t stride) {
+    std::vector<Seed> fixed(seeds.begin(), seeds.end());
+    std::sort(fixed.begin(), fixed.end(), [](const Seed& a, const Seed& b) { return a.vertex < b.vertex; });
     double residual = 0;
-    for (std::size_t v = 0; v < time.size(); ++v) {
-        if (time[v] == update[v]) continue;
+    auto seed = fixed.begin();
+    for (std::size_t v = 0; v < time.size(); v += stride) {
+        double update = kInfinity;
+        for (; seed != fixed.end() && at(seed->vertex) <= v; ++seed)
+            if (at(seed->vertex) == v) update = std::min(update, seed->time);
+        for (const PolygonId p : complex.polygons_of(VoronoiVertexId(v))) {
+            const auto polygon = complex.polygon(p);
+            std::size_t i = 0;
+            while (at(polygon[i]) != v) ++i;
+            update = std::min(update, least_offer(complex, time, polygon, i));
+        }
+        if (time[v] == update) continue;
         if (!(time[v] > 0 && time[v] < kInfinity)) return kInfinity;  // unreached, though an offer stands; or uncaused
-        residual = std::max(residual, std::fabs(time[v] - update[v]) / time[v]);
+        residual = std::max(residual, std::fabs(time[v] - update) / time[v]);
     }
     return residual;
 }

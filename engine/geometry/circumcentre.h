@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "engine/core/vec3.h"
 
@@ -11,9 +12,11 @@ namespace lumenline {
 /// In double precision relative to the first point; where the tetrahedron is so flat that the
 /// rounding would show (|det| < 1e-8 |a||b||c| for its edge vectors), again in quadruple
 /// precision: structured meshes have cells whose double-precision centre is off by many radii.
-/// @returns the centre; not finite for four coplanar points
+/// @param reach  what is of interest [length]: where the centre is provably farther than this from the
+///               first point, as for the slivers of flat caps, quadruple precision is not called for
+/// @returns the centre; not finite for four coplanar points, or where it is out of reach
 /// @cost 10 ns; flat tetrahedra 2 us
-inline Vec3 circumcentre(Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3) {
+inline Vec3 circumcentre(Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3, double reach = std::numeric_limits<double>::infinity()) {
     const Vec3 a = p1 - p0, b = p2 - p0, c = p3 - p0;
     const double aa = squared_norm(a), bb = squared_norm(b), cc = squared_norm(c);
     const Vec3 bc = cross(b, c);
@@ -21,6 +24,14 @@ inline Vec3 circumcentre(Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3) {
     if (det * det > 1e-16 * aa * bb * cc) {
         const double f = 0.5 / det;
         return p0 + f * (aa * bc + bb * cross(c, a) + cc * cross(a, b));
+    }
+    constexpr double kRounding = 1e-14;  // generous bound on the relative rounding of the sums below
+    const double la = std::sqrt(aa), lb = std::sqrt(bb), lc = std::sqrt(cc);
+    const double numerator_norm =
+        norm(aa * bc + bb * cross(c, a) + cc * cross(a, b)) - kRounding * (la + lb + lc) * la * lb * lc;
+    if (numerator_norm > 2 * reach * (std::fabs(det) + kRounding * la * lb * lc)) {
+        constexpr double kFar = std::numeric_limits<double>::infinity();
+        return {kFar, kFar, kFar};
     }
     using Quad = __float128;
     const Quad q[3][3] = {{Quad(p1.x) - p0.x, Quad(p1.y) - p0.y, Quad(p1.z) - p0.z},

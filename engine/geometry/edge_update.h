@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "engine/core/vec3.h"
 #include "engine/geometry/segment_cost.h"
@@ -40,16 +41,33 @@ inline double planar_minimizer(Vec3 a, Vec3 b, Vec3 w, double time_a, double tim
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-/// First arrival at w across the edge ab of a polygon that holds all three, under |grad T| = 1/R.
+/// Where on the edge ab of a polygon that holds w the first arrival at w starts: the minimizer for the
+/// cost halfway.
+inline double ray_start(const TimedPoint& a, const TimedPoint& b, Vec3 w, double radius_w) {
+    return planar_minimizer(a.x, b.x, w, a.time, b.time, 2 / (radius_w + 0.5 * (a.radius + b.radius)));
+}
+
+/// Arrival at w by the ray that leaves the edge ab at t, under |grad T| = 1/R.
 ///
-/// The ray's start is the minimizer for the cost halfway; its cost is exact (segment_cost), so that
-/// any start gives an upper bound and the error of the start enters squared.
-/// @returns time and start of the ray; the ends of the edge are not tried (see vertex_arrival)
-inline Arrival edge_arrival(const TimedPoint& a, const TimedPoint& b, Vec3 w, double radius_w) {
-    const double f = 2 / (radius_w + 0.5 * (a.radius + b.radius));
-    const double t = planar_minimizer(a.x, b.x, w, a.time, b.time, f);
+/// Its cost is exact (segment_cost), so that any start gives an upper bound and the error of the
+/// start enters squared.
+inline double arrival_from(const TimedPoint& a, const TimedPoint& b, Vec3 w, double radius_w, double t) {
     const double r = radius_between(a.radius, b.radius, squared_norm(b.x - a.x), t);
-    return {(1 - t) * a.time + t * b.time + segment_cost(distance(w, lerp(a.x, b.x, t)), r + radius_w), t};
+    return (1 - t) * a.time + t * b.time + segment_cost(distance(w, lerp(a.x, b.x, t)), r + radius_w);
+}
+
+/// First arrival at w across the edge ab of a polygon that holds all three.
+/// @returns time and start of the ray; starts inside the edge only are better than vertex_arrival
+inline Arrival edge_arrival(const TimedPoint& a, const TimedPoint& b, Vec3 w, double radius_w) {
+    const double t = ray_start(a, b, w, radius_w);
+    return {arrival_from(a, b, w, radius_w, t), t};
+}
+
+/// The same where the ray starts inside the edge; +inf, at half the cost, where it would start at an
+/// end, which vertex_arrival covers.
+inline double inner_arrival(const TimedPoint& a, const TimedPoint& b, Vec3 w, double radius_w) {
+    const double t = ray_start(a, b, w, radius_w);
+    return t > 0 && t < 1 ? arrival_from(a, b, w, radius_w, t) : std::numeric_limits<double>::infinity();
 }
 
 /// First arrival at w straight from the vertex a.

@@ -9,7 +9,7 @@
 
 namespace lumenline {
 
-/// Distance to a triangle surface (CGAL AABB tree).
+/// Distance to a triangle surface, by a tree of bounding boxes.
 /// @cost build O(n log n); query O(log n) with a close hint
 class SurfaceDistance {
 public:

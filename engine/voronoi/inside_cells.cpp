@@ -22,6 +22,8 @@ constexpr std::size_t kGrain = 8192;
 constexpr double kLargeBall2 = 0.6 * 0.6;
 /// The same for Voronoi edges, against the longest edge of all sites of the cells around.
 constexpr double kSafeEdge2 = 0.6 * 0.6;
+/// Voronoi edges shorter than a fifth of their ball's radius are no way through a wall; squared.
+constexpr double kShortEdge2 = 0.2 * 0.2;
 
 struct SiteFrame {
     Vec3 position, normal;
@@ -120,19 +122,18 @@ bool leaves_lumen(const InsideCells& cells, const std::vector<double>& around, c
     double longest2 = 0;
     for (std::size_t k = 0; k < 4; ++k)
         if (k != face) longest2 = std::max(longest2, around[cells.sites[cell][k]]);
-    // R^2 along the edge is t -> ra^2 + t (rb^2 - ra^2 - l^2) + t^2 l^2.
+    const Vec3 from = cells.centre[cell], to = cells.centre[other];
+    const double length2 = squared_norm(to - from);
     const double ra2 = cells.radius[cell] * cells.radius[cell], rb2 = cells.radius[other] * cells.radius[other];
-    const double length2 = squared_norm(cells.centre[other] - cells.centre[cell]);
-    if (!(length2 > 0)) return false;
-    const double t = std::clamp(0.5 * (ra2 - rb2 + length2) / length2, 0.0, 1.0);
-    const double least2 = ra2 + t * (rb2 - ra2 - length2) + t * t * length2;
-    if (least2 > kSafeEdge2 * longest2) return false;
-    const auto outside = [&](double u) { return !test.inside(lerp(cells.centre[cell], cells.centre[other], u)); };
-    if (t > 0 && t < 1 && outside(t)) return true;
+    if (!(length2 > kShortEdge2 * ra2)) return false;
+    // R^2 along the edge is t -> ra^2 - 2 t m l^2 + t^2 l^2, least at t = m. Only where it gets small can a wall be.
+    const double m = std::clamp(0.5 * (ra2 - rb2 + length2) / length2, 0.0, 1.0);
+    if (ra2 + m * (rb2 - ra2 - length2) + m * m * length2 > kSafeEdge2 * longest2) return false;
+    if (m > 0 && m < 1 && !test.inside(lerp(from, to, m))) return true;
     // An eighth of a triangle apart: thin overlaps of two walls are not stepped over.
     const double pieces = std::clamp(std::ceil(8 * std::sqrt(length2 / longest2)), 2.0, 32.0);
     for (double i = 1; i < pieces; ++i)
-        if (outside(i / pieces)) return true;
+        if (!test.inside(lerp(from, to, i / pieces))) return true;
     return false;
 }
 
@@ -161,6 +162,7 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
             high[axis] = std::max(high[axis], p[axis]);
         }
 
+    const double reach = distance(low, high);
     const std::size_t count = tetrahedra.count();
     std::vector<Vec3> centres(count);
     std::vector<Verdict> verdict(count);
@@ -169,7 +171,7 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
         for (std::size_t i = begin; i < end; ++i) {
             const auto& s = tetrahedra.sites[i];
             const Vec3 c = circumcentre(frames[s[0]].position, frames[s[1]].position, frames[s[2]].position,
-                                        frames[s[3]].position);
+                                        frames[s[3]].position, reach);
             centres[i] = c;
             const bool in_box =
                 c.x > low.x && c.x < high.x && c.y > low.y && c.y < high.y && c.z > low.z && c.z < high.z;
