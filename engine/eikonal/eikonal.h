@@ -27,7 +27,8 @@ struct EikonalWorkspace {
 /// polygonal non-manifolds: when a vertex is accepted, every polygon around it offers its other
 /// vertices an arrival straight from it and across its two edges there (edge_update.h). Vertices whose
 /// time is improved after they were accepted are taken up again, until the field is at the fixed
-/// point of its update (up to 1e-7 of the time).
+/// point of its update: up to 1e-7 of the time, up to 1e-4 among the tiny polygons on the axis of
+/// exactly round tubes, where the start of a ray moves when an edge's end is improved.
 /// @param complex  embedded Voronoi diagram
 /// @param seeds    vertices with times >= 0, fixed before marching
 /// @returns T per Voronoi vertex, dimensionless; +inf where unreachable; with the residual of the update

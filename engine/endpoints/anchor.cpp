@@ -124,6 +124,15 @@ DeepestVertex deepest_vertex(const VoronoiComplex& complex, Vec3 x, double margi
             result.vertex = VoronoiVertexId(v);
         }
 
+    // Outside of the wall the tiny balls along it are the least far: take the vessel's own.
+    if (const double deepest = result.depth; deepest < 0)
+        for (std::size_t v = 0; v < complex.vertex_count(); ++v)
+            if (complex.ball_radius[v] > complex.ball_radius[at(result.vertex)] &&
+                depth(v) >= deepest - margin * complex.ball_radius[v]) {
+                result.depth = depth(v);
+                result.vertex = VoronoiVertexId(v);
+            }
+
     // Everything joined to the best vertex through vertices about as deep belongs to its branch.
     const double threshold = result.depth - margin * complex.ball_radius[at(result.vertex)];
     std::vector<bool> joined(complex.vertex_count(), false);

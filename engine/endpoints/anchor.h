@@ -25,7 +25,8 @@ void anchor_at_point(const Surface& surface, const VoronoiComplex& complex, cons
 /// Anchors an endpoint at a vertex: its one seed.
 void anchor_at_vertex(const VoronoiComplex& complex, VoronoiVertexId v, Endpoint& endpoint);
 
-/// The vertex in whose ball x lies deepest, max R(v) - |v - x|, and that depth; and the deepest
+/// The vertex in whose ball x lies deepest, max R(v) - |v - x|, and that depth; for an x outside of all
+/// balls the largest ball of those within `margin` of its radius of the deepest. And the deepest
 /// vertex of another branch: one whose depth is within `margin` radii of the best and that no chain
 /// of such vertices joins to it. `rival` is none where there is no such branch.
 struct DeepestVertex {

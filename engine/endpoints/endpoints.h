@@ -14,7 +14,7 @@ namespace lumenline {
 /// Openings: the anchor is the point of the complex nearest to the axis of the extended opening, a
 /// little beyond its plane, so that lines start on the axis and are cut at the plane. Without an
 /// inlet stated, the largest opening is the inlet; without outlets, all other openings are.
-/// Given points: the anchor is the Voronoi vertex in whose ball the point lies deepest,
+/// Given points: the anchor is the Voronoi vertex in whose ball the point lies deepest (deepest_vertex),
 /// max R(v) - |v - p|; near an opening (mode auto, boundaries) the point means that opening.
 /// @throws StageError kEndpointsMissing (closed surface, no points), kNoInlet, kNoOutlet,
 ///         kEndpointOutside (more than a quarter of the local radius outside of the lumen),

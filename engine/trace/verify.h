@@ -28,6 +28,8 @@ public:
     /// @cost one distance query per point; more only where a segment is longer than its ends' clearances
     [[nodiscard]] LineCheck check(const Polyline& line) const;
 
+    [[nodiscard]] const Surface& surface() const { return surface_; }
+
 private:
     [[nodiscard]] SurfaceDistance::Nearest nearest(Vec3 x, SurfaceDistance::Nearest& last) const;
     [[nodiscard]] bool segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
