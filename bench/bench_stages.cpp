@@ -39,9 +39,10 @@ MergedVertices merge(const Surface& surface, const InsideCells& cells, const Pip
     return merge_vertices(cells, options.voronoi.merge_tolerance, 64 * surface.coordinate_rounding);
 }
 
-VoronoiComplex polygons(const InsideCells& cells, const MergedVertices& merged) {
+VoronoiComplex polygons(const Surface& surface, const InsideCells& cells, const MergedVertices& merged) {
     VoronoiComplex complex;
     build_polygons(cells, merged, complex);
+    bridge_gaps(surface, cells, merged, complex);
     return complex;
 }
 
@@ -77,7 +78,7 @@ Model prepare(const Input& input) {
     model.merged = merge(model.surface, model.cells, input.options);
     model.solved = solve(model.surface, input.options);
     verify(input, model.solved);
-    if (digest(polygons(model.cells, model.merged)) != digest(model.solved.complex))
+    if (digest(polygons(model.surface, model.cells, model.merged)) != digest(model.solved.complex))
         throw std::runtime_error(input.name + ": the steps do not give the complex that the stage gives");
     return model;
 }
@@ -161,7 +162,7 @@ const NamedStage kStages[] = {
     {"polygons",
      [](benchmark::State& state, const Input& input, const Model& m) {
          time_pairs(state, m, digest(m.solved.complex),
-                    [&] { return polygons(m.cells, merge(m.surface, m.cells, input.options)); });
+                    [&] { return polygons(m.surface, m.cells, merge(m.surface, m.cells, input.options)); });
      }},
     {"voronoi",
      [](benchmark::State& state, const Input& input, const Model& m) {

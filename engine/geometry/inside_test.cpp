@@ -29,6 +29,18 @@ int perturbed_orientation(Vec3 a, Vec3 b, Vec3 p, int u, int v) {
     return sign(b[u] - a[u]);
 }
 
+/// What the triangle abc adds to the winding number of p by its crossing with the ray from p along +w.
+int crossing(Vec3 a, Vec3 b, Vec3 c, Vec3 p, int u, int v) {
+    const int ab = perturbed_orientation(a, b, p, u, v);
+    if (ab == 0 || perturbed_orientation(b, c, p, u, v) != ab || perturbed_orientation(c, a, p, u, v) != ab) return 0;
+    const auto point = [](Vec3 q) { return Kernel::Point_3(q.x, q.y, q.z); };
+    const auto side = CGAL::orientation(point(a), point(b), point(c), point(p));
+    // Seen along +w the triangle is counter-clockwise (ab > 0) when its outward normal points along +w.
+    // p is on the negative side of an outward triangle above it: the ray leaves the surface there.
+    if (ab > 0) return side == CGAL::NEGATIVE ? 1 : 0;
+    return side == CGAL::POSITIVE ? -1 : 0;
+}
+
 float rounded_down(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
 float rounded_up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
@@ -93,20 +105,6 @@ std::size_t InsideTest::cell(double value, int direction) const {
     return position > 0 ? std::min(static_cast<std::size_t>(position), cells_[k] - 1) : 0;
 }
 
-int InsideTest::crossing(const Extent& extent, Vec3 p) const {
-    const auto& t = triangles_[extent.triangle];
-    const Vec3 a = points_[at(t[0])], b = points_[at(t[1])], c = points_[at(t[2])];
-    const int ab = perturbed_orientation(a, b, p, u_, v_);
-    if (ab == 0 || perturbed_orientation(b, c, p, u_, v_) != ab || perturbed_orientation(c, a, p, u_, v_) != ab)
-        return 0;
-    const auto point = [](Vec3 q) { return Kernel::Point_3(q.x, q.y, q.z); };
-    const auto side = CGAL::orientation(point(a), point(b), point(c), point(p));
-    // Seen along +w the triangle is counter-clockwise (ab > 0) when its outward normal points along +w.
-    // p is on the negative side of an outward triangle above it: the ray leaves the surface there.
-    if (ab > 0) return side == CGAL::NEGATIVE ? 1 : 0;
-    return side == CGAL::POSITIVE ? -1 : 0;
-}
-
 bool InsideTest::inside(Vec3 p) const {
     for (int axis = 0; axis < 3; ++axis)
         if (!(p[axis] >= low_[axis] && p[axis] <= high_[axis])) return false;
@@ -116,7 +114,20 @@ bool InsideTest::inside(Vec3 p) const {
         const Extent& e = entries_[k];
         if (p[u_] < e.low[0] || p[u_] > e.high[0] || p[v_] < e.low[1] || p[v_] > e.high[1] || p[w_] > e.high[2])
             continue;
-        winding += crossing(e, p);
+        const auto& t = triangles_[e.triangle];
+        winding += crossing(points_[at(t[0])], points_[at(t[1])], points_[at(t[2])], p, u_, v_);
+    }
+    return winding > 0;
+}
+
+bool inside_surface(std::span<const Vec3> points, std::span<const std::array<SiteId, 3>> triangles, Vec3 p) {
+    int winding = 0;
+    for (const auto& t : triangles) {
+        const Vec3 a = points[at(t[0])], b = points[at(t[1])], c = points[at(t[2])];
+        const auto beside = [&](int axis) {
+            return std::min({a[axis], b[axis], c[axis]}) > p[axis] || std::max({a[axis], b[axis], c[axis]}) < p[axis];
+        };
+        if (!beside(0) && !beside(1) && std::max({a.z, b.z, c.z}) >= p.z) winding += crossing(a, b, c, p, 0, 1);
     }
     return winding > 0;
 }

