@@ -32,7 +32,6 @@ std::string_view error_name(ErrorCode code) {
         case ErrorCode::kNoInlet: return "no_inlet";
         case ErrorCode::kNoOutlet: return "no_outlet";
         case ErrorCode::kNoSeed: return "no_seed";
-        case ErrorCode::kTargetUnreached: return "target_unreached";
         case ErrorCode::kNoLineTraced: return "no_line_traced";
         case ErrorCode::kArchiveWrite: return "archive_write";
         case ErrorCode::kInterrupted: return "interrupted";

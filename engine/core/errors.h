@@ -34,7 +34,6 @@ enum class ErrorCode {
     kNoInlet,            ///< no source
     kNoOutlet,           ///< no target
     kNoSeed,             ///< a march without a start
-    kTargetUnreached,    ///< no path from any source to a target
     kNoLineTraced,       ///< not one target could be traced
     kArchiveWrite,       ///< the model file could not be written
     kInterrupted,        ///< the run was stopped

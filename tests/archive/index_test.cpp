@@ -15,19 +15,6 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// An archive of the given records in a directory of its own.
-std::filesystem::path archive_of(const std::vector<ModelRecord>& records, const std::string& name) {
-    const std::filesystem::path directory = fresh_directory(name);
-    std::filesystem::create_directory(directory / "models");
-    std::vector<ModelSummary> models;
-    for (const ModelRecord& record : records) {
-        write_model_file(model_path(directory, record.identity.id), record);
-        models.push_back(summarize(record));
-    }
-    write_index(directory, models, "cohort: a\n", "cohort: a\nlength_unit: mm\n");
-    return directory;
-}
-
 ModelSummary with_covariates(const std::string& id, std::vector<std::pair<std::string, std::string>> covariates) {
     ModelRecord record = sample_record(id);
     record.identity.covariates = std::move(covariates);
@@ -36,7 +23,7 @@ ModelSummary with_covariates(const std::string& id, std::vector<std::pair<std::s
 
 TEST(Index, RowsComeBackInOrder) {
     const std::vector<ModelRecord> records{sample_record("z"), failed_record("b"), sample_record("a")};
-    const auto directory = archive_of(records, "rows");
+    const auto directory = sample_archive(records, "rows");
     const std::vector<ModelSummary> read = list_models(directory);
     ASSERT_EQ(read.size(), 3U);
     for (std::size_t i = 0; i < read.size(); ++i) {
@@ -48,7 +35,7 @@ TEST(Index, RowsComeBackInOrder) {
 }
 
 TEST(Index, ItCanBeMadeAgainFromTheModelFiles) {
-    const auto directory = archive_of({sample_record("a"), failed_record("b")}, "again");
+    const auto directory = sample_archive({sample_record("a"), failed_record("b")}, "again");
     const std::string before = bytes_of(directory / "cohort.h5");
     std::filesystem::remove(directory / "cohort.h5");
     const std::vector<ModelSummary> models{read_summary(model_path(directory, "a")),
@@ -58,7 +45,7 @@ TEST(Index, ItCanBeMadeAgainFromTheModelFiles) {
 }
 
 TEST(Index, ModelsWithoutLinesHaveNoLengths) {
-    const auto directory = archive_of({sample_record("a"), failed_record("b")}, "nan");
+    const auto directory = sample_archive({sample_record("a"), failed_record("b")}, "nan");
     const ArchiveFile index(directory / "cohort.h5");
     for (const char* column : {"length", "radius_min", "radius_mean", "radius_max"}) {
         const auto values = index.numbers(std::string("/tables/models/") + column);
@@ -66,21 +53,21 @@ TEST(Index, ModelsWithoutLinesHaveNoLengths) {
         EXPECT_TRUE(std::isnan(values.at(1))) << column;
     }
     EXPECT_EQ(index.strings("/tables/failures/id"), Strings{"b"});
-    EXPECT_EQ(index.strings("/tables/failures/code"), Strings{"target_unreached"});
+    EXPECT_EQ(index.strings("/tables/failures/code"), Strings{"no_seed"});
     EXPECT_EQ(index.strings("/tables/models/failure_stage"), (Strings{"", "eikonal"}));
     EXPECT_EQ(index.strings("/config/resolved"), Strings{"cohort: a\nlength_unit: mm\n"});
     EXPECT_EQ(index.numbers("/timing/seconds"), (std::vector<double>{2.8, 2.8}));
 }
 
 TEST(Index, LinksLeadToTheModels) {
-    const auto directory = archive_of({sample_record("a")}, "links");
+    const auto directory = sample_archive({sample_record("a")}, "links");
     const hdf::Handle file(H5Fopen((directory / "cohort.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");
     const hdf::Handle points(H5Dopen2(file.get(), "/models/a/surface/points", H5P_DEFAULT), H5Dclose, "points");
     EXPECT_GE(points.get(), 0);
 }
 
 TEST(Index, LinksLeadToTheModelsAlsoAfterAMove) {
-    const auto directory = archive_of({sample_record("a")}, "move");
+    const auto directory = sample_archive({sample_record("a")}, "move");
     const auto moved = fresh_directory("moved") / "here";
     std::filesystem::rename(directory, moved);
     const hdf::Handle file(H5Fopen((moved / "cohort.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");

@@ -123,8 +123,8 @@ TEST(ModelFile, FailedModelKeepsWhatItReached) {
     const ArchiveFile file = written(failed_record(), "failed");
     EXPECT_EQ(file.attribute("/", "status"), "failed");
     EXPECT_EQ(file.attribute("/", "failure_stage"), "eikonal");
-    EXPECT_EQ(file.attribute("/", "failure_code"), "target_unreached");
-    EXPECT_EQ(file.attribute("/", "failure_sentence"), "no path from the inlet to outlet 2");
+    EXPECT_EQ(file.attribute("/", "failure_code"), "no_seed");
+    EXPECT_EQ(file.attribute("/", "failure_sentence"), "a front needs at least one vertex to start from");
     EXPECT_EQ(file.numbers("/surface/cap"), (Numbers{-1, -2, -2, -2, -1, -2}));
     EXPECT_EQ(file.shape("/voronoi/vertices"), (Shape{7, 3}));
     for (const char* absent : {"/endpoints", "/centerlines", "/voronoi/arrival_time"}) EXPECT_FALSE(file.has(absent));

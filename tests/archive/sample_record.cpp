@@ -9,6 +9,9 @@
 #include <limits>
 #include <sstream>
 
+#include "io/archive/index.h"
+#include "io/archive/model_file.h"
+
 namespace lumenline {
 
 namespace {
@@ -137,11 +140,23 @@ ModelRecord sample_record(const std::string& id) {
 ModelRecord failed_record(const std::string& id) {
     ModelRecord record = sample_record(id);
     record.status = ModelStatus::kFailed;
-    record.failure = Failure{Stage::kEikonal, ErrorCode::kTargetUnreached, "no path from the inlet to outlet 2"};
+    record.failure = Failure{Stage::kEikonal, ErrorCode::kNoSeed, "a front needs at least one vertex to start from"};
     record.endpoints = nullptr;
     record.fields = {nullptr};
     record.centerlines = nullptr;
     return record;
+}
+
+std::filesystem::path sample_archive(const std::vector<ModelRecord>& records, const std::string& name) {
+    std::filesystem::path directory = fresh_directory(name);
+    std::filesystem::create_directory(directory / "models");
+    std::vector<ModelSummary> models;
+    for (const ModelRecord& record : records) {
+        write_model_file(model_path(directory, record.identity.id), record);
+        models.push_back(summarize(record));
+    }
+    write_index(directory, models, "cohort: a\n", "cohort: a\nlength_unit: mm\n");
+    return directory;
 }
 
 std::filesystem::path fresh_directory(const std::string& name) {

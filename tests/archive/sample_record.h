@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/core/model_record.h"
 
@@ -14,6 +15,9 @@ ModelRecord sample_record(const std::string& id = "sample");
 
 /// A model that failed while its front was marched: surface and complex, but no lines.
 ModelRecord failed_record(const std::string& id = "failed");
+
+/// An archive of the given records, with its index and a configuration of two lines, in a directory of its own.
+std::filesystem::path sample_archive(const std::vector<ModelRecord>& records, const std::string& name);
 
 /// An empty directory of its own below the tests' temporary directory.
 std::filesystem::path fresh_directory(const std::string& name);
