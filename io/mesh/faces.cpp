@@ -7,7 +7,9 @@
 #include "io/mesh/faces.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,6 +26,17 @@ bool is_float32(double x) {
     if (std::fabs(x) >= kLeastNormal) return (std::bit_cast<std::uint64_t>(x) & kLostBits) == 0;
     const double units = std::ldexp(x, -kLowestBit);
     return units == std::trunc(units);
+}
+
+// Unit of the last of `digits` significant digits of x > 0. The exponent is read from x in decimal, which is
+// exact also at and beside powers of ten.
+double last_digit(double x, int digits) {
+    std::array<char, 32> text{};
+    const char* end = std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific).ptr;
+    const char* sign = std::find(text.cbegin(), end, 'e') + 1;
+    int exponent = 0;
+    std::from_chars(sign + 1, end, exponent);
+    return std::pow(10.0, (*sign == '-' ? -exponent : exponent) + 1 - digits);
 }
 
 }  // namespace
@@ -64,7 +77,7 @@ double coordinate_rounding(std::span<const Vec3> points, int digits) {
     if (largest == 0) return 0;
     const double binary = std::ldexp(largest, all_float32 ? -24 : -53);
     if (digits == 0) return binary;
-    return std::max(binary, 0.5 * std::pow(10.0, std::ceil(std::log10(largest)) - digits));
+    return std::max(binary, 0.5 * last_digit(largest, digits));
 }
 
 TriangleSoup make_soup(const SourceFile& file, std::vector<Vec3> points, FaceCollector& faces, int digits) {

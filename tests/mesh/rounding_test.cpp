@@ -58,6 +58,15 @@ TEST(CoordinateRounding, TextRoundsAtItsLastPrintedDigit) {
     EXPECT_NEAR(rounding_of_text("0.00012 0 0", "0 0.00013 0", "0 0 0.000001"), 5e-6, 5e-18);
 }
 
+TEST(CoordinateRounding, LargestCoordinateMayBeAPowerOfTen) {
+    EXPECT_NEAR(rounding_of_text("10.0 0 0", "0 9.9 0", "0 0 1"), 0.05, 5e-14);
+    EXPECT_NEAR(rounding_of_text("-1000 0 0", "0 999 0", "0 0 1"), 0.5, 5e-13);
+    EXPECT_NEAR(rounding_of_text("0.00100 0 0", "0 0.00099 0", "0 0 0"), 5e-6, 5e-18);
+    EXPECT_NEAR(rounding_of_text("1e5 0 0", "0 1e4 0", "0 0 1"), 5e4, 5e-8);
+    EXPECT_NEAR(rounding_of_text("1.0e-9 0 0", "0 9.9e-10 0", "0 0 0"), 5e-11, 5e-23);
+    EXPECT_NEAR(rounding_of_text("9.99 0 0", "0 1 0", "0 0 1"), 0.005, 5e-15) << "one step below one";
+}
+
 TEST(CoordinateRounding, TextOfManyDigitsRoundsAsTheNumberItself) {
     // Half a unit of the seventeenth digit is 5e-17, half the last bit of the double 3.4e-16.
     EXPECT_EQ(rounding_of_text("3.1000000000000000888 0 0", "0 0.1 0", "0 0 1"), std::ldexp(3.1, -53));
