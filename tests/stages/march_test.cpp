@@ -17,16 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PhantomOptions options_of(PhantomKind kind, double jitter, int points_around = 20) {
-    PhantomOptions options;
-    options.kind = kind;
-    options.points_around = points_around;
-    options.jitter = jitter;
-    options.length = 30;
-    options.leg_length = 15;
-    options.bend_radius = kind == PhantomKind::kHairpin ? 7 : 20;
-    options.caps = true;
-    options.rotate = true;
-    return options;
+    return test::capped_options(kind, jitter, points_around, 30);
 }
 
 struct Model {

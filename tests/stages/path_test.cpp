@@ -16,16 +16,7 @@ namespace lumenline {
 namespace {
 
 PhantomOptions options_of(PhantomKind kind, double jitter, int points_around = 24) {
-    PhantomOptions options;
-    options.kind = kind;
-    options.points_around = points_around;
-    options.jitter = jitter;
-    options.length = 40;
-    options.leg_length = 15;
-    options.bend_radius = kind == PhantomKind::kHairpin ? 7 : 20;
-    options.caps = true;
-    options.rotate = true;
-    return options;
+    return test::capped_options(kind, jitter, points_around, 40);
 }
 
 std::vector<PhantomOptions> jittered_shapes() {

@@ -56,6 +56,19 @@ Vec3 Random::direction() {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+PhantomOptions capped_options(PhantomKind kind, double jitter, int points_around, double length) {
+    PhantomOptions options;
+    options.kind = kind;
+    options.points_around = points_around;
+    options.jitter = jitter;
+    options.length = length;
+    options.leg_length = 15;
+    if (kind == PhantomKind::kHairpin) options.bend_radius = 7;
+    options.caps = true;
+    options.rotate = true;
+    return options;
+}
+
 Surface closed_surface(const Phantom& capped) {
     Surface surface;
     surface.points = capped.points;

@@ -36,6 +36,10 @@ private:
     std::mt19937_64 engine_;
 };
 
+/// A capped phantom in general position. Straight shapes are `length` long, a hairpin's legs 15 with a
+/// bend of radius 7; everything else is as in PhantomOptions.
+PhantomOptions capped_options(PhantomKind kind, double jitter, int points_around, double length);
+
 /// A phantom with caps as a conditioned surface without openings, made here without engine/condition.
 Surface closed_surface(const Phantom& capped);
 
