@@ -43,6 +43,7 @@ constexpr std::array kKeys{
     KeyInfo{"centerlines", "map", "", "-", "{}"},
     KeyInfo{"centerlines.refine", "choice", "none|path", "-", "path"},
     KeyInfo{"centerlines.pairs", "choice", "nearest|all", "-", "nearest"},
+    KeyInfo{"characterize", "boolean", "", "-", "true"},
     KeyInfo{"run", "map", "", "-", "{}"},
     KeyInfo{"run.threads", "integer", "all", "threads", "all", {1, 4096, false}},
     KeyInfo{"run.models_in_flight", "integer", "auto", "models", "auto", {1, 65536, false}},

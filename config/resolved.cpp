@@ -92,6 +92,7 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "refine", refinement_name(options.trace.refine));
     write(out, "pairs", pairs_name(options.trace.pairs));
     out << YAML::EndMap;
+    write(out, "characterize", options.characterize ? "true" : "false");
     write_section(out, "run");
     write(out, "threads", count_or(config.run.threads, "all"));
     write(out, "models_in_flight", count_or(config.run.models_in_flight, "auto"));

@@ -109,6 +109,21 @@ void show_lines(const ArchiveFile& file, std::ostream& out) {
     table.print(out);
 }
 
+void show_character(const ArchiveFile& file, std::ostream& out) {
+    if (!file.has(names::kStatisticsGeodesic.path)) return;
+    const auto sites = numbers(file, names::kWallSites, 1), unreached = numbers(file, names::kUnreachedSites, 1);
+    out << "\ncharacterization of " << table_number(sites[0] - unreached[0]) << " of " << table_number(sites[0])
+        << " sites of the wall\n";
+    TextTable table = table_of({"quantity"}, {"mean", "sd", "median", "p95"});
+    for (const auto& [name, field] : {std::pair("geodesic distance D_g", &names::kStatisticsGeodesic),
+                                      std::pair("euclidean distance D_e", &names::kStatisticsEuclidean),
+                                      std::pair("tangency deviation NTD", &names::kStatisticsTangency)}) {
+        const auto v = numbers(file, *field, 4);
+        table.add_row({name, table_number(v[0]), table_number(v[1]), table_number(v[2]), table_number(v[3])});
+    }
+    table.print(out);
+}
+
 void show_diagnostics(const ArchiveFile& file, std::ostream& out) {
     const std::vector<std::string> code = file.strings(names::kCode.path);
     if (code.empty()) return;
@@ -134,6 +149,7 @@ void show(const ArchiveFile& file, std::ostream& out) {
         out << "\nfailed: " << printable(*sentence) << '\n';
     show_endpoints(file, out);
     show_lines(file, out);
+    show_character(file, out);
     show_diagnostics(file, out);
 }
 
@@ -191,7 +207,7 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
         return part;
     };
     add("list", "table of the models (default)", What::kList);
-    add("show", "attributes, endpoints, lines and diagnostics of one model", What::kShow);
+    add("show", "attributes, endpoints, lines, characterization and diagnostics of one model", What::kShow);
     add("tree", "groups and datasets of one model", What::kTree);
     add("get", "one dataset, or attribute PATH@name, as tab-separated text", What::kGet)
         ->add_option("PATH", request->path, "dataset, as 'tree' names it")

@@ -26,6 +26,7 @@ struct ModelArguments {
     std::string precision = "float32";
     int threads = 0;
     bool skip_self_intersections = false;
+    bool skip_characterization = false;
 };
 
 Vec3 parse_point(const std::string& text, const std::string& option) {
@@ -54,6 +55,7 @@ int run(ModelArguments arguments) {
     for (const std::string& text : arguments.outlets)
         task.options.endpoints.outlets.push_back(parse_point(text, "--outlet"));
     task.options.condition.check_self_intersections = !arguments.skip_self_intersections;
+    task.options.characterize = !arguments.skip_characterization;
     task.identity.source_file = task.surface_path;
     task.identity.id = std::filesystem::path(arguments.output).stem().string();
     if (!(std::isfinite(task.scale) && task.scale > 0))
@@ -106,6 +108,8 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     verb.add_flag("--skip-self-intersections", arguments.skip_self_intersections, "Do not look for self-intersections");
+    verb.add_flag("--skip-characterization", arguments.skip_characterization,
+                  "Do not relate the surface's points to the centerlines");
 }
 
 }  // namespace

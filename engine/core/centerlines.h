@@ -6,6 +6,7 @@
 
 #include "engine/core/ids.h"
 #include "engine/core/vec3.h"
+#include "engine/core/voronoi_complex.h"
 
 namespace lumenline {
 
@@ -16,6 +17,9 @@ struct PathLines {
     std::vector<double> ball_radius;     ///< (Q) R [length]
     std::vector<double> abscissa;        ///< (Q) arc length of the path from its source [length]
     std::vector<double> line_abscissa;   ///< (Q) abscissa of the final line's point it corresponds to [length]
+    /// (Q) the same points as places of the complex; a and b none at a line's two anchors, which lie inside polygons
+    /// (Endpoint::anchor_polygons). Not archived.
+    std::vector<ComplexPoint> places;
 };
 
 /// Centerlines of one model. Points run from source to target; the lines end in the planes of

@@ -7,9 +7,9 @@
 namespace lumenline {
 
 /// The stages of one model, in the order in which it passes them.
-enum class Stage { kLoad, kCondition, kVoronoi, kEndpoints, kEikonal, kTrace, kArchive };
+enum class Stage { kLoad, kCondition, kVoronoi, kEndpoints, kEikonal, kTrace, kCharacterize, kArchive };
 
-inline constexpr int kStageCount = 7;
+inline constexpr int kStageCount = 8;
 
 /// Lower-case name of a stage, as written in the archive.
 std::string_view stage_name(Stage stage);

@@ -51,6 +51,12 @@ ModelSummary summarize(const ModelRecord& record) {
         for (const Endpoint& e : *record.endpoints)
             ++(e.role == EndpointRole::kInlet ? summary.inlets : summary.outlets);
     if (record.centerlines) summarize_lines(*record.centerlines, summary);
+    if (record.character) {
+        summary.geodesic_distance = record.character->geodesic_distance_statistics;
+        summary.euclidean_distance = record.character->euclidean_distance_statistics;
+        summary.normalized_tangency_deviation = record.character->normalized_tangency_deviation_statistics;
+        summary.unreached_sites = record.character->unreached;
+    }
     return summary;
 }
 

@@ -14,6 +14,7 @@
 #include "engine/core/diagnostics.h"
 #include "engine/core/endpoints.h"
 #include "engine/core/surface.h"
+#include "engine/core/surface_character.h"
 #include "engine/core/voronoi_complex.h"
 
 namespace lumenline {
@@ -60,6 +61,7 @@ struct ModelRecord {
     std::shared_ptr<const Endpoints> endpoints;
     std::vector<std::shared_ptr<const ArrivalField>> fields;  ///< one per source, in endpoint order
     std::shared_ptr<const Centerlines> centerlines;
+    std::shared_ptr<const SurfaceCharacter> character;  ///< null also where it was not asked for
     RunFacts facts;
 };
 
@@ -73,6 +75,8 @@ struct ModelSummary {
     std::size_t inlets = 0, outlets = 0, centerlines = 0;
     double length = 0;  ///< sum of the lines' lengths; a stretch that lines share counts for each [length]
     double radius_min = 0, radius_mean = 0, radius_max = 0;  ///< along all lines, mean weighted by arc length [length]
+    AreaStatistics geodesic_distance, euclidean_distance, normalized_tangency_deviation;  ///< over the wall; NaN = none
+    std::size_t unreached_sites = 0;  ///< of the wall, without a centerline
     double seconds = 0;
 };
 

@@ -19,7 +19,8 @@ namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
-    "condition.version=1\nvoronoi.version=1\nendpoints.version=1\neikonal.version=1\ntrace.version=1\n";
+    "condition.version=1\nvoronoi.version=1\nendpoints.version=1\neikonal.version=1\ntrace.version=1\n"
+    "characterize.version=1\n";
 
 std::string points_text(const std::vector<Vec3>& points) {
     std::string text;
@@ -45,6 +46,7 @@ std::string canonical_text(const ModelTask& task) {
     line("endpoints.outlets", points_text(o.endpoints.outlets));
     line("centerlines.refine", refinement_name(o.trace.refine));
     line("centerlines.pairs", pairs_name(o.trace.pairs));
+    line("characterize", o.characterize ? "true" : "false");
     return text;
 }
 

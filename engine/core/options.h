@@ -60,6 +60,7 @@ struct PipelineOptions {
     VoronoiOptions voronoi;
     EndpointOptions endpoints;
     TraceOptions trace;
+    bool characterize = true;  ///< run engine/characterize
 };
 
 /// One model to be computed.

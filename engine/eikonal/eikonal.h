@@ -6,8 +6,7 @@
 #include "engine/core/endpoints.h"
 #include "engine/core/stage_context.h"
 #include "engine/core/voronoi_complex.h"
-#include "engine/eikonal/heap.h"
-#include "engine/geometry/edge_update.h"
+#include "engine/geometry/polygon_march.h"
 
 namespace lumenline {
 
@@ -15,11 +14,7 @@ namespace lumenline {
 inline constexpr std::size_t kResidualStride = 16;
 
 /// Scratch of solve_eikonal; reusable from call to call, one per concurrent solve.
-struct EikonalWorkspace {
-    std::vector<TimedPoint> nodes;
-    std::vector<bool> accepted;
-    IndexedHeap heap;
-};
+using EikonalWorkspace = MarchWorkspace;
 
 /// First arrival time T of a front that leaves the seeds at speed R.
 ///

@@ -1,45 +1,15 @@
-// A Voronoi polygon lies in the bisector plane of its two sites, so the distance from a point to it
-// is that of plane geometry: project along the sites' difference; inside, the projection is the
-// nearest point, else the nearest point of an edge is.
+// Anchors in the inside of a polygon offer their seeds with the exact cost; those at a vertex are their one seed.
 #include "engine/endpoints/anchor.h"
 
 #include <algorithm>
 #include <limits>
 
+#include "engine/geometry/nearest_on_polygon.h"
 #include "engine/geometry/segment_cost.h"
 
 namespace lumenline {
 
 namespace {
-
-Vec3 nearest_on_segment(Vec3 a, Vec3 b, Vec3 x) {
-    const Vec3 e = b - a;
-    const double e2 = squared_norm(e);
-    return e2 > 0 ? lerp(a, b, std::clamp(dot(x - a, e) / e2, 0.0, 1.0)) : a;
-}
-
-Vec3 nearest_on_polygon(const Surface& surface, const VoronoiComplex& complex, PolygonId p, Vec3 x) {
-    const auto loop = complex.polygon(p);
-    const auto vertex = [&](std::size_t i) { return complex.vertices[at(loop[i == loop.size() ? 0 : i])]; };
-    if (loop.size() > 2) {
-        const auto [s, t] = complex.polygon_sites[at(p)];
-        const Vec3 n = normalized(surface.points[at(t)] - surface.points[at(s)]);
-        const Vec3 foot = x - dot(x - vertex(0), n) * n;
-        int left = 0, right = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const double side = dot(cross(vertex(i + 1) - vertex(i), foot - vertex(i)), n);
-            left += side > 0;
-            right += side < 0;
-        }
-        if (left == 0 || right == 0) return foot;
-    }
-    Vec3 best = vertex(0);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec3 q = nearest_on_segment(vertex(i), vertex(i + 1), x);
-        if (squared_norm(q - x) < squared_norm(best - x)) best = q;
-    }
-    return best;
-}
 
 /// Ball radius at a point of the complex: the distance to a site of its polygon, or on a bare edge
 /// the quadratic of edges.
@@ -70,7 +40,7 @@ NearestOnComplex nearest_on_complex(const Surface& surface, const VoronoiComplex
             size = std::max(size, squared_norm(complex.vertices[at(v)] - complex.vertices[at(loop[0])]));
         }
         if (least - 2 * std::sqrt(size) > nearest.distance + slack) continue;
-        const Vec3 q = nearest_on_polygon(surface, complex, PolygonId(p), x);
+        const Vec3 q = nearest_on_polygon(surface, complex, PolygonId(p), x).point;
         const double d = distance(q, x);
         if (d > nearest.distance + slack) continue;
         close.emplace_back(PolygonId(p), q);

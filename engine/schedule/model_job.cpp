@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "engine/characterize/characterize.h"
 #include "engine/condition/condition.h"
 #include "engine/endpoints/endpoints.h"
 #include "engine/trace/trace.h"
@@ -110,6 +111,14 @@ void ModelJob::trace() {
     });
 }
 
+void ModelJob::characterize() {
+    if (!task_.options.characterize) return;
+    run(Stage::kCharacterize, [&](StageContext& context) {
+        record_.character = std::make_shared<const SurfaceCharacter>(characterize_surface(
+            *record_.surface, *record_.complex, *record_.endpoints, *record_.centerlines, context));
+    });
+}
+
 ModelRecord ModelJob::take() {
     record_.status = ModelStatus::kOk;
     for (const Diagnostic& d : record_.diagnostics)
@@ -128,6 +137,7 @@ ModelRecord process_model(const ModelTask& task, const Loader& loader) {
     job.find_endpoints();
     for (std::size_t i = 0; i < job.source_count(); ++i) job.solve(i, work);
     job.trace();
+    job.characterize();
     return job.take();
 }
 

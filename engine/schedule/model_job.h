@@ -34,6 +34,7 @@ public:
     /// True for exactly one call: that of the source solved last.
     bool last_source_done() { return sources_left_.fetch_sub(1) == 1; }
     void trace();
+    void characterize();
 
     [[nodiscard]] bool failed() const { return record_.failure.has_value(); }
     /// Was the run stopped before this model was done?

@@ -1,8 +1,8 @@
 // The graph:
 //
-//   admission -> load -> condition -> voronoi -> endpoints -> fan out --> eikonal (per source) --> trace -> writer
-//       ^                                                        \__ failed: no sources ____________/         |
-//       |_______________________________________ release ____________________________________________________|
+//   admission -> load -> condition -> voronoi -> endpoints -> fan out --> eikonal (per source) --> trace
+//       ^                                                        \__ failed: no sources ____________/ |
+//       |_________________________ release: writer <- characterize <---------------------------------|
 //
 // Admission is a serial node that holds the queue: it lets a model in for every one that leaves, so
 // no token can be lost between a failure and its release. The sources of a model count down; the
@@ -79,6 +79,8 @@ public:
           fan_out_(graph_, flow::unlimited, [](const JobPtr& job, auto& ports) { fan_out(job, ports); }),
           eikonal_(graph_, flow::unlimited, [this](const SourceOfJob& source, auto& ports) { solve(source, ports); }),
           trace_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->trace(); }); }),
+          characterize_(graph_, flow::unlimited,
+                        [](const JobPtr& job) { return step(job, [&] { job->characterize(); }); }),
           writer_(graph_, flow::serial, [this](const JobPtr& job) { return write(*job); }) {
         flow::make_edge(flow::output_port<0>(admission_), load_);
         flow::make_edge(load_, condition_);
@@ -88,7 +90,8 @@ public:
         flow::make_edge(flow::output_port<0>(fan_out_), eikonal_);
         flow::make_edge(flow::output_port<1>(fan_out_), trace_);
         flow::make_edge(flow::output_port<0>(eikonal_), trace_);
-        flow::make_edge(trace_, writer_);
+        flow::make_edge(trace_, characterize_);
+        flow::make_edge(characterize_, writer_);
         flow::make_edge(writer_, admission_);
     }
 
@@ -188,7 +191,7 @@ private:
     StageNode load_, condition_, voronoi_, endpoints_;
     FanOut fan_out_;
     Solver eikonal_;
-    StageNode trace_;
+    StageNode trace_, characterize_;
     flow::function_node<JobPtr, int> writer_;
 };
 

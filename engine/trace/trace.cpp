@@ -116,6 +116,7 @@ private:
         Polyline whole;        ///< from anchor to anchor
         Polyline cut;          ///< the part between the openings' planes
         double cut_front = 0;  ///< length cut off before it [length]
+        std::vector<ComplexPoint> places;  ///< of the points of `whole`
         LineCheck check;
     };
 
@@ -127,6 +128,9 @@ private:
         thin_path(complex_, path, kMinStep);
         Candidate line;
         line.whole = line.cut = polyline_of(complex_, path);
+        line.places.assign(1, {});
+        line.places.insert(line.places.end(), path.inner.begin(), path.inner.end());
+        line.places.emplace_back();
         if (!from.opening.is_none()) line.cut_front = cut_at_plane(line.cut, from.point, from.normal, true);
         if (!to.opening.is_none()) cut_at_plane(line.cut, to.point, to.normal, false);
         if (line.cut.size() >= 2) {  // the points at the planes lie between points that need not share a polygon
@@ -164,6 +168,7 @@ private:
         extend(lines_.path.points, line.whole.points);
         extend(lines_.path.ball_radius, line.whole.radius);
         extend(lines_.path.abscissa, line.whole.abscissa);
+        extend(lines_.path.places, line.places);
         for (const double s : line.whole.abscissa)
             lines_.path.line_abscissa.push_back(std::clamp(s - line.cut_front, 0.0, line.cut.abscissa.back()));
         lines_.path.offsets.push_back(static_cast<std::uint32_t>(lines_.path.points.size()));

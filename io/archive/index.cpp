@@ -90,6 +90,12 @@ void write_models(Writer& writer, Models models) {
     length_column(writer, names::kRadiusMin, models, &ModelSummary::radius_min);
     length_column(writer, names::kRadiusMean, models, &ModelSummary::radius_mean);
     length_column(writer, names::kRadiusMax, models, &ModelSummary::radius_max);
+    for (const names::StatisticsColumn& c : names::kStatisticsColumns) {
+        std::vector<double> column;
+        for (const ModelSummary& model : models) column.push_back(model.*c.quantity.*c.value);
+        writer.column(c.field, column);
+    }
+    count_column(writer, names::kUnreached, models, &ModelSummary::unreached_sites);
     count_column(writer, names::kWarnings, models, &ModelSummary::warnings);
     text_column(writer, names::kFailureStage, models,
                 [](const ModelSummary& m) { return m.failure ? stage_name(m.failure->stage) : ""; });
@@ -126,9 +132,12 @@ std::set<std::string> own_columns() {
           names::kStructure,    names::kGroup,      names::kLengthUnit, names::kCoordinates,   names::kSourceFile,
           names::kSourceSha,    names::kInputsSha,  names::kSites,      names::kTriangleCount, names::kVertexCount,
           names::kPolygonCount, names::kInlets,     names::kOutlets,    names::kLineCount,     names::kLineLength,
+          names::kUnreached,
           names::kRadiusMin,    names::kRadiusMean, names::kRadiusMax,  names::kWarnings,      names::kFailureStage,
           names::kFailureCode})
         own.insert(std::string(field.path).substr(prefix.size()));
+    for (const names::StatisticsColumn& c : names::kStatisticsColumns)
+        own.insert(std::string(c.field.path).substr(prefix.size()));
     return own;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/core/model_record.h"
 #include "io/archive/names.h"
 
 /// Every name of the index `cohort.h5` (io/ARCHIVE.md), format version 1.
@@ -35,6 +36,39 @@ inline constexpr Field kRadiusMin{"/tables/models/radius_min", "length", "least 
 inline constexpr Field kRadiusMean{"/tables/models/radius_mean", "length",
     "mean radius along the centerlines, weighted by arc length; NaN = no centerline"};
 inline constexpr Field kRadiusMax{"/tables/models/radius_max", "length", "largest radius; NaN = no centerline"};
+/// A statistic of the surface's characterization.
+struct StatisticsColumn {
+    Field field;
+    AreaStatistics ModelSummary::*quantity;
+    double AreaStatistics::*value;
+};
+inline constexpr StatisticsColumn kStatisticsColumns[] = {
+    {{"/tables/models/geodesic_distance_mean", "length", "mean of D_g over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::geodesic_distance, &AreaStatistics::mean},
+    {{"/tables/models/geodesic_distance_sd", "length", "standard deviation of D_g over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::geodesic_distance, &AreaStatistics::sd},
+    {{"/tables/models/geodesic_distance_median", "length", "median of D_g over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::geodesic_distance, &AreaStatistics::median},
+    {{"/tables/models/geodesic_distance_p95", "length", "95th percentile of D_g over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::geodesic_distance, &AreaStatistics::p95},
+    {{"/tables/models/euclidean_distance_mean", "length", "mean of D_e over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::euclidean_distance, &AreaStatistics::mean},
+    {{"/tables/models/euclidean_distance_sd", "length", "standard deviation of D_e over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::euclidean_distance, &AreaStatistics::sd},
+    {{"/tables/models/euclidean_distance_median", "length", "median of D_e over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::euclidean_distance, &AreaStatistics::median},
+    {{"/tables/models/euclidean_distance_p95", "length", "95th percentile of D_e over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::euclidean_distance, &AreaStatistics::p95},
+    {{"/tables/models/normalized_tangency_deviation_mean", "1", "mean of NTD over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::normalized_tangency_deviation, &AreaStatistics::mean},
+    {{"/tables/models/normalized_tangency_deviation_sd", "1", "standard deviation of NTD over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::normalized_tangency_deviation, &AreaStatistics::sd},
+    {{"/tables/models/normalized_tangency_deviation_median", "1", "median of NTD over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::normalized_tangency_deviation, &AreaStatistics::median},
+    {{"/tables/models/normalized_tangency_deviation_p95", "1", "95th percentile of NTD over the wall, weighted by area; NaN = not characterized"},
+     &ModelSummary::normalized_tangency_deviation, &AreaStatistics::p95},
+};
+inline constexpr Field kUnreached{"/tables/models/unreached_sites", "1", "sites of the wall with no way to a centerline"};
 inline constexpr Field kWarnings{"/tables/models/warnings", "1", "diagnostics of severity warning or error"};
 inline constexpr Field kFailureStage{"/tables/models/failure_stage", "1", "stage that failed; empty = none"};
 inline constexpr Field kFailureCode{"/tables/models/failure_code", "1", "why, as a stable name; empty = not failed"};

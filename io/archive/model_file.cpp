@@ -102,6 +102,50 @@ void write_surface(Writer& writer, const ModelRecord& record) {
     if (record.complex) writer.column(names::kPole, record.complex->pole, sites);
 }
 
+/// A field of scalars, in the precision that was asked for.
+void write_scalars(Writer& writer, const names::Field& field, const std::vector<double>& values, std::size_t expected,
+                   const ArchiveOptions& options) {
+    if (values.size() != expected)
+        throw hdf::Inconsistent(std::string(field.path) + " has " + counted(values.size(), "value") +
+                                " where the record asks for " + std::to_string(expected));
+    const hsize_t length = expected;
+    const hdf::Rows rows{values.data(), expected};
+    writer.numbers(field, {&length, 1}, Number::kFloat64, options.float32_fields ? Number::kFloat32 : Number::kFloat64,
+                   {&rows, 1});
+}
+
+void write_character(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
+    const SurfaceCharacter& c = *record.character;
+    const std::size_t sites = record.surface->site_count();
+    const std::pair<const names::Field*, const std::vector<double>*> scalars[] = {
+        {&names::kGeodesic, &c.geodesic_distance},
+        {&names::kDescentLength, &c.descent_length},
+        {&names::kEuclidean, &c.euclidean_distance},
+        {&names::kTangencyDeviation, &c.normalized_tangency_deviation},
+        {&names::kGeodesicRefined, &c.geodesic_distance_refined},
+        {&names::kTangencyDeviationRefined, &c.normalized_tangency_deviation_refined},
+        {&names::kSiteAbscissa, &c.abscissa}};
+    for (const auto& [field, values] : scalars) write_scalars(writer, *field, *values, sites, options);
+    writer.column(names::kCenterlinePoint, c.centerline_point, sites);
+    writer.column(names::kCenterlineId, c.centerline_id, sites);
+    const auto zone = [](SiteZone z) { return static_cast<std::uint8_t>(z); };
+    writer.column(names::kZone, number_column<std::uint8_t>(c.zone, zone), sites);
+    write_scalars(writer, names::kCenterlineDistance, c.centerline_distance, record.complex->vertex_count(), options);
+
+    const std::pair<const names::Field*, const AreaStatistics*> statistics[] = {
+        {&names::kStatisticsGeodesic, &c.geodesic_distance_statistics},
+        {&names::kStatisticsEuclidean, &c.euclidean_distance_statistics},
+        {&names::kStatisticsTangency, &c.normalized_tangency_deviation_statistics}};
+    for (const auto& [field, s] : statistics)
+        writer.column(*field, std::vector<double>{s->mean, s->sd, s->median, s->p95});
+    writer.number(names::kWallSites, static_cast<std::int32_t>(c.wall_sites));
+    writer.number(names::kUnreachedSites, static_cast<std::int32_t>(c.unreached));
+    writer.number(names::kNotRefined, static_cast<std::int32_t>(c.not_refined));
+    const auto count = [](std::size_t n) { return static_cast<std::uint32_t>(n); };
+    writer.column(names::kJumps, std::vector<std::uint32_t>{count(c.jumps.pole_sheet), count(c.jumps.branches_meet),
+                                                            count(c.jumps.other)});
+}
+
 void write_endpoints(Writer& writer, const Endpoints& endpoints) {
     writer.column(names::kEndpointPoint, number_column<Vec3>(endpoints, [](const Endpoint& e) { return e.point; }));
     writer.column(names::kEndpointNormal, number_column<Vec3>(endpoints, [](const Endpoint& e) { return e.normal; }));
@@ -207,6 +251,7 @@ void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& 
     if (record.complex) write_complex(writer, *record.complex);
     write_fields(writer, record, options);
     if (record.centerlines) write_centerlines(writer, *record.centerlines);
+    if (record.character) write_character(writer, record, options);
     write_diagnostics(writer, record.diagnostics);
     write_vtkhdf(writer, record);
     write_facts(writer, record.facts);

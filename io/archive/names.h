@@ -31,6 +31,39 @@ inline constexpr Field kCap{"/surface/cap", "1",
     "endpoint whose extension or cap the triangle is; -1 = wall, -2 = of an opening that is no endpoint"};
 inline constexpr Field kPole{"/surface/pole", "1", "farthest inner Voronoi vertex of each site; -1 = none"};
 
+inline constexpr Field kGeodesic{"/surface/geodesic_distance", "length",
+    "D_g: from the site to its pole and along the Voronoi complex to a centerline; NaN = no way"};
+inline constexpr Field kDescentLength{"/surface/descent_length", "length",
+    "length of the steepest descent from the pole to centerline_point; NaN = no way"};
+inline constexpr Field kEuclidean{"/surface/euclidean_distance", "length",
+    "D_e: from the site straight to centerline_point; NaN = no way"};
+inline constexpr Field kTangencyDeviation{"/surface/normalized_tangency_deviation", "1",
+    "NTD: share of the way along the complex in geodesic_distance; NaN = no way"};
+inline constexpr Field kGeodesicRefined{"/surface/geodesic_distance_refined", "length",
+    "D_g by the medial ball that touches the surface at the site; NaN = no way"};
+inline constexpr Field kTangencyDeviationRefined{"/surface/normalized_tangency_deviation_refined", "1",
+    "NTD by the medial ball that touches the surface at the site; NaN = no way"};
+inline constexpr Field kCenterlinePoint{"/surface/centerline_point", "length",
+    "c(p): end of the descent, on a path of /centerlines/path; NaN = no way"};
+inline constexpr Field kCenterlineId{"/surface/centerline_id", "1", "centerline of centerline_point; -1 = no way"};
+inline constexpr Field kSiteAbscissa{"/surface/abscissa", "length",
+    "abscissa of centerline_point on its centerline; NaN = no way"};
+inline constexpr Field kZone{"/surface/zone", "1",
+    "0 = wall that counts in statistics, 1 = extension or cap, 2 = end zone of a closed tip"};
+
+inline constexpr Field kStatisticsGeodesic{"/characterization/geodesic_distance", "length",
+    "mean, standard deviation, median and 95th percentile over the wall, weighted by area"};
+inline constexpr Field kStatisticsEuclidean{"/characterization/euclidean_distance", "length",
+    "mean, standard deviation, median and 95th percentile over the wall, weighted by area"};
+inline constexpr Field kStatisticsTangency{"/characterization/normalized_tangency_deviation", "1",
+    "mean, standard deviation, median and 95th percentile over the wall, weighted by area"};
+inline constexpr Field kWallSites{"/characterization/wall_sites", "1", "sites of zone 0"};
+inline constexpr Field kUnreachedSites{"/characterization/unreached", "1", "sites of zone 0 with no way to a centerline"};
+inline constexpr Field kNotRefined{"/characterization/not_refined", "1",
+    "sites of zone 0 whose refined values are those of the paper's pole"};
+inline constexpr Field kJumps{"/characterization/jumps", "1",
+    "edges of the wall along which D_g or c(p) jumps: pole on another sheet, branches meet, other"};
+
 inline constexpr const char* kEndpoints = "/endpoints";
 inline constexpr Field kEndpointPoint{"/endpoints/point", "length", "centre of the opening, or the given point"};
 inline constexpr Field kEndpointNormal{"/endpoints/normal", "1", "unit, out of the lumen; zero for a given point"};
@@ -52,6 +85,8 @@ inline constexpr Field kArrivalTime{"/voronoi/arrival_time", "1",
     "first arrival time at each vertex of the front from each source; +inf = unreached"};
 inline constexpr Field kSources{"/voronoi/sources", "1", "endpoint each row of arrival_time starts from"};
 inline constexpr Field kReached{"/voronoi/reached", "1", "vertices with a finite arrival time, per source"};
+inline constexpr Field kCenterlineDistance{"/voronoi/centerline_distance", "length",
+    "distance along the complex from each vertex to the nearest centerline path; +inf = unreached"};
 inline constexpr Field kResidual{"/voronoi/residual", "1",
     "largest distance of the field from the fixed point of its update, relative to T"};
 

@@ -90,6 +90,24 @@ std::shared_ptr<const Endpoints> read_roles(const ArchiveFile& file) {
     return endpoints;
 }
 
+AreaStatistics read_statistics(const ArchiveFile& file, const names::Field& field) {
+    const std::vector<double> values = file.numbers(field.path);
+    if (values.size() != 4) damaged(file, std::string(field.path) + " does not hold four numbers");
+    return {values[0], values[1], values[2], values[3]};
+}
+
+std::shared_ptr<const SurfaceCharacter> read_character(const ArchiveFile& file) {
+    auto character = std::make_shared<SurfaceCharacter>();
+    character->geodesic_distance_statistics = read_statistics(file, names::kStatisticsGeodesic);
+    character->euclidean_distance_statistics = read_statistics(file, names::kStatisticsEuclidean);
+    character->normalized_tangency_deviation_statistics = read_statistics(file, names::kStatisticsTangency);
+    const std::vector<double> unreached = file.numbers(names::kUnreachedSites.path);
+    if (unreached.size() != 1 || !(unreached.front() >= 0))
+        damaged(file, std::string(names::kUnreachedSites.path) + " is not a count");
+    character->unreached = static_cast<std::size_t>(unreached.front());
+    return character;
+}
+
 Diagnostics read_severities(const ArchiveFile& file) {
     Diagnostics found;
     for (const std::string& severity : file.strings(names::kSeverity.path)) {
@@ -161,6 +179,7 @@ void read_counts(const ArchiveFile& index, std::vector<ModelSummary>& models) {
         {&names::kInlets, &ModelSummary::inlets},
         {&names::kOutlets, &ModelSummary::outlets},
         {&names::kLineCount, &ModelSummary::centerlines},
+        {&names::kUnreached, &ModelSummary::unreached_sites},
         {&names::kWarnings, &ModelSummary::warnings}};
     for (const auto& [field, member] : columns) {
         const auto values = column<double>(index, field->path, models.size());
@@ -182,6 +201,13 @@ void read_lengths(const ArchiveFile& index, std::vector<ModelSummary>& models) {
         const auto values = column<double>(index, field->path, models.size());
         for (std::size_t row = 0; row < models.size(); ++row)
             models[row].*member = std::isnan(values[row]) ? 0 : values[row];
+    }
+}
+
+void read_character_columns(const ArchiveFile& index, std::vector<ModelSummary>& models) {
+    for (const names::StatisticsColumn& c : names::kStatisticsColumns) {
+        const auto values = column<double>(index, c.field.path, models.size());
+        for (std::size_t row = 0; row < models.size(); ++row) models[row].*c.quantity.*c.value = values[row];
     }
 }
 
@@ -215,6 +241,7 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     record.diagnostics = read_severities(file);
     if (file.has(names::kEndpointRole.path)) record.endpoints = read_roles(file);
     if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
+    if (file.has(names::kStatisticsGeodesic.path)) record.character = read_character(file);
     record.facts.total_seconds = only_number(file, names::kTotalSeconds);
 
     ModelSummary summary = summarize(record);
@@ -233,6 +260,7 @@ std::vector<ModelSummary> read_index(const std::filesystem::path& index_file) {
     read_states(index, models);
     read_counts(index, models);
     read_lengths(index, models);
+    read_character_columns(index, models);
     return models;
 }
 

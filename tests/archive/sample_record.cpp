@@ -105,6 +105,30 @@ std::shared_ptr<const Centerlines> sample_lines() {
     return lines;
 }
 
+std::shared_ptr<const SurfaceCharacter> sample_character() {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    auto character = std::make_shared<SurfaceCharacter>();
+    character->centerline_distance = {0, 1.0 / 7, 2.0 / 7, 3.0 / 7, 4.0 / 7, 5.0 / 7, kInfinity};
+    character->geodesic_distance = {1.0 / 3, 2.0 / 3, 1, 4.0 / 3, kNaN};
+    character->descent_length = {0.1, 0.2, 0.3, 0.4, kNaN};
+    character->euclidean_distance = {0.3, 0.6, 0.9, 1.2, kNaN};
+    character->normalized_tangency_deviation = {0, 0.1, 0.2, 1, kNaN};
+    character->geodesic_distance_refined = {0.31, 0.61, 0.91, 1.21, kNaN};
+    character->normalized_tangency_deviation_refined = {0.01, 0.11, 0.21, 0.99, kNaN};
+    character->centerline_point = {{0, 0, 0}, {1.0 / 3, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {kNaN, kNaN, kNaN}};
+    character->centerline_id = {LineId(0), LineId(0), LineId(1), LineId(1), LineId()};
+    character->abscissa = {0, 1.0 / 3, 0.5, 1, kNaN};
+    character->zone = {SiteZone::kWall, SiteZone::kWall, SiteZone::kAdded, SiteZone::kEndZone, SiteZone::kWall};
+    character->wall_sites = 3;
+    character->unreached = 1;
+    character->not_refined = 2;
+    character->geodesic_distance_statistics = {0.5, 1.0 / 6, 0.4, 2.0 / 3};
+    character->euclidean_distance_statistics = {0.45, 0.15, 0.35, 0.6};
+    character->normalized_tangency_deviation_statistics = {0.05, 0.04, 0.06, 0.1};
+    character->jumps = {3, 4, 5};
+    return character;
+}
+
 }  // namespace
 
 ModelRecord sample_record(const std::string& id) {
@@ -130,7 +154,8 @@ ModelRecord sample_record(const std::string& id) {
     record.endpoints = sample_endpoints();
     record.fields = {sample_field(0, kInfinity), sample_field(2, 2)};
     record.centerlines = sample_lines();
-    record.facts.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+    record.character = sample_character();
+    record.facts.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.3, 0.4};
     record.facts.total_seconds = 2.8;
     record.facts.peak_resident_bytes = 123456789;
     record.facts.threads = 2;
@@ -144,6 +169,7 @@ ModelRecord failed_record(const std::string& id) {
     record.endpoints = nullptr;
     record.fields = {nullptr};
     record.centerlines = nullptr;
+    record.character = nullptr;
     return record;
 }
 
@@ -198,6 +224,14 @@ std::string difference(const ModelSummary& a, const ModelSummary& b) {
     if (a.length != b.length) return "length";
     if (a.radius_min != b.radius_min || a.radius_max != b.radius_max) return "least or largest radius";
     if (a.radius_mean != b.radius_mean) return "mean radius";
+    const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+    const auto differ = [&](const AreaStatistics& x, const AreaStatistics& y) {
+        return !(same(x.mean, y.mean) && same(x.sd, y.sd) && same(x.median, y.median) && same(x.p95, y.p95));
+    };
+    if (differ(a.geodesic_distance, b.geodesic_distance)) return "geodesic distance";
+    if (differ(a.euclidean_distance, b.euclidean_distance)) return "euclidean distance";
+    if (differ(a.normalized_tangency_deviation, b.normalized_tangency_deviation)) return "tangency deviation";
+    if (a.unreached_sites != b.unreached_sites) return "unreached sites";
     return a.seconds == b.seconds ? "" : "seconds";
 }
 

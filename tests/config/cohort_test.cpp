@@ -61,6 +61,7 @@ coordinate_system: RAS
 endpoints: {mode: points}
 condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: false}
 centerlines: {refine: none, pairs: all}
+characterize: false
 run: {threads: 3, models_in_flight: 7}
 archive: {directory: ../out, precision: float64})"));
     const ModelTask& task = config.tasks.at(0);
@@ -72,6 +73,7 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_FALSE(task.options.condition.check_self_intersections);
     EXPECT_EQ(task.options.trace.refine, Refinement::kNone);
     EXPECT_EQ(task.options.trace.pairs, Pairs::kAll);
+    EXPECT_FALSE(task.options.characterize);
     EXPECT_EQ(config.run.threads, 3);
     EXPECT_EQ(config.run.models_in_flight, 7);
     EXPECT_EQ(config.archive.directory, folder.path() / "../out");

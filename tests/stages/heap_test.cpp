@@ -1,4 +1,4 @@
-#include "engine/eikonal/heap.h"
+#include "engine/geometry/heap.h"
 
 #include <gtest/gtest.h>
 

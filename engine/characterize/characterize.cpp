@@ -1,0 +1,118 @@
+// Symbols of the paper: T~ = centerline_distance (eq. 6), D_g = geodesic_distance (eq. 7), c(p) = centerline_point,
+// D_e = euclidean_distance, NTD = normalized_tangency_deviation (eq. 8).
+// Every polygon that a path crosses or touches gives its vertices their exact distance to the path: snapping the path
+// to vertices would spoil T~ by half a polygon everywhere.
+#include "engine/characterize/characterize.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/characterize/descent.h"
+#include "engine/characterize/path_pieces.h"
+#include "engine/characterize/statistics.h"
+#include "engine/core/text.h"
+#include "engine/geometry/polygon_march.h"
+
+namespace lumenline {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> march_from_paths(const VoronoiComplex& complex, const PathPieces& pieces,
+                                     const StageContext& context) {
+    MarchWorkspace work;
+    PolygonMarch<UnitMetric> march(complex, work);
+    for (const PolygonId p : pieces.polygons())
+        for (const VoronoiVertexId v : complex.polygon(p))
+            march.seed(v, pieces.least_distance(p, complex.vertices[at(v)]));
+    march.run(context);
+    return march.times();
+}
+
+class Characterization {
+public:
+    Characterization(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
+                     const Centerlines& lines, StageContext& context)
+        : surface_(surface),
+          complex_(complex),
+          endpoints_(endpoints),
+          lines_(lines),
+          context_(context),
+          pieces_(surface, complex, endpoints, lines) {}
+
+    SurfaceCharacter run() {
+        const std::size_t n = surface_.site_count();
+        result_.centerline_distance = march_from_paths(complex_, pieces_, context_);
+        for (auto* values : {&result_.geodesic_distance, &result_.descent_length, &result_.euclidean_distance,
+                             &result_.normalized_tangency_deviation, &result_.geodesic_distance_refined,
+                             &result_.normalized_tangency_deviation_refined, &result_.abscissa})
+            values->assign(n, kNaN);
+        result_.centerline_point.assign(n, {kNaN, kNaN, kNaN});
+        result_.centerline_id.assign(n, {});
+        result_.zone.resize(n);
+        Descent descent(complex_, pieces_, result_.centerline_distance);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i % 16384 == 0) context_.check_cancelled();
+            result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;
+            if (const VoronoiVertexId pole = complex_.pole[i]; !pole.is_none())
+                if (const DescentEnd end = descent.from(pole); end.reached()) place(i, pole, end);
+        }
+        summarize_wall(surface_, result_);
+        if (result_.unreached > 0)
+            context_.note("sites_unreached",
+                          counted(result_.unreached, "site") + " of " + std::to_string(result_.wall_sites) +
+                              " of the wall have no path to a centerline, and no distances",
+                          static_cast<double>(result_.unreached));
+        return std::move(result_);
+    }
+
+private:
+    void place(std::size_t i, VoronoiVertexId pole, const DescentEnd& end) {
+        const Vec3 p = surface_.points[i];
+        const double first = distance(p, complex_.vertices[at(pole)]);
+        const double second = result_.centerline_distance[at(pole)];
+        result_.geodesic_distance[i] = first + second;
+        result_.descent_length[i] = end.length;
+        result_.euclidean_distance[i] = distance(end.foot.x, p);
+        result_.normalized_tangency_deviation[i] = second / (first + second);
+        result_.centerline_point[i] = end.foot.x;
+        result_.centerline_id[i] = end.foot.line;
+        result_.abscissa[i] = along(lines_.path.line_abscissa, end.foot);
+        if (result_.zone[i] == SiteZone::kWall && in_end_zone(end.foot)) result_.zone[i] = SiteZone::kEndZone;
+    }
+
+    static double along(const std::vector<double>& values, const PathFoot& foot) {
+        const double from = values[foot.point], to = values[foot.point + 1];
+        return from + foot.share * (to - from);
+    }
+
+    /// Within the last radius, along the path, of a given point.
+    [[nodiscard]] bool in_end_zone(const PathFoot& foot) const {
+        const std::size_t line = at(foot.line);
+        const double s = along(lines_.path.abscissa, foot);
+        const double length = lines_.path.abscissa[lines_.path.offsets[line + 1] - 1];
+        const auto within = [&](EndpointId id, double away) {
+            const Endpoint& e = endpoints_[at(id)];
+            return e.opening.is_none() && away <= e.anchor_radius;
+        };
+        return within(lines_.source[line], s) || within(lines_.target[line], length - s);
+    }
+
+    const Surface& surface_;
+    const VoronoiComplex& complex_;
+    const Endpoints& endpoints_;
+    const Centerlines& lines_;
+    StageContext& context_;
+    PathPieces pieces_;
+    SurfaceCharacter result_;
+};
+
+}  // namespace
+
+SurfaceCharacter characterize_surface(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
+                                      const Centerlines& centerlines, StageContext& context) {
+    return Characterization(surface, complex, endpoints, centerlines, context).run();
+}
+
+}  // namespace lumenline

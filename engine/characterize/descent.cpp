@@ -1,0 +1,114 @@
+// T~ falls from point to point, so a descent ends: an edge's inside is left for a lower point or for the lower of its
+// own ends, which may be as high as it; a vertex always has a lower point, the one that its time came from.
+// A descent that comes to a vertex goes on as the descent from there: the stack of vertices that wait for each other
+// unwinds from the path upwards.
+#include "engine/characterize/descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/geometry/edge_update.h"
+
+namespace lumenline {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kUnknown = ~0U;
+
+}  // namespace
+
+Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const double> distance)
+    : complex_(complex), pieces_(pieces), time_(distance), known_(complex.vertex_count(), kUnknown) {}
+
+void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
+    if (pieces_.crosses(p)) {
+        const PathFoot foot = pieces_.nearest(p, here.x, here.radius);
+        if (foot.distance <= best.value) best = {foot.distance, {}, foot};
+    }
+    const auto loop = complex_.polygon(p);
+    const ComplexPoint& place = here.place;
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const VoronoiVertexId a = loop[i], b = loop[i + 1 == n ? 0 : i + 1];
+        const double ta = time_[at(a)], tb = time_[at(b)];
+        const Vec3 xa = complex_.vertices[at(a)];
+        const bool own_end = a == place.a || a == place.b;
+        if (ta < here.time || (own_end && !place.is_vertex() && ta <= here.time)) {
+            const double value = ta + distance(here.x, xa);
+            if (value < best.value) best = {value, {a, a, 0}, {}};
+        }
+        if (n == 2 || !(std::min(ta, tb) < here.time) || !(std::max(ta, tb) < kInfinity)) continue;
+        if (own_end && (b == place.a || b == place.b || place.is_vertex())) continue;
+        if (place.is_vertex() && b == place.a) continue;
+        const Vec3 xb = complex_.vertices[at(b)];
+        const double t = planar_minimizer(xa, xb, here.x, ta, tb, 1);
+        const double tx = (1 - t) * ta + t * tb;
+        if (!(t > 0 && t < 1 && tx < here.time)) continue;
+        const double value = tx + distance(here.x, lerp(xa, xb, t));
+        if (value < best.value) best = {value, {a, b, t}, {}};
+    }
+}
+
+Descent::Here Descent::arrive(const ComplexPoint& place) const {
+    const double time =
+        place.is_vertex() ? time_[at(place.a)] : (1 - place.t) * time_[at(place.a)] + place.t * time_[at(place.b)];
+    return {position(complex_, place), complex_.ball_radius[at(place.a)], time, place};
+}
+
+Descent::Step Descent::best_step(const Here& here) const {
+    Step best{kInfinity, {}, {}};
+    for (const PolygonId p : complex_.polygons_of(here.place.a)) {
+        const auto loop = complex_.polygon(p);
+        if (here.place.is_vertex() || std::find(loop.begin(), loop.end(), here.place.b) != loop.end())
+            try_polygon(p, here, best);
+    }
+    return best;
+}
+
+DescentEnd Descent::from(VoronoiVertexId v) {
+    /// A vertex and how far it is, along the descent, to the next one of the stack.
+    struct Waiting {
+        VoronoiVertexId vertex;
+        double length;
+    };
+    std::vector<Waiting> stack;
+    DescentEnd end;
+    while (known_[at(v)] == kUnknown) {
+        stack.push_back({v, 0});
+        Here here = arrive({v, v, 0});
+        Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}};
+        double& length = stack.back().length;
+        while (step.value < kInfinity && !step.place.a.is_none() && !step.place.is_vertex()) {
+            const Here next = arrive(step.place);
+            length += distance(here.x, next.x);
+            here = next;
+            step = best_step(here);
+        }
+        if (!step.place.a.is_none()) {
+            length += distance(here.x, complex_.vertices[at(step.place.a)]);
+            v = step.place.a;
+            continue;
+        }
+        end.foot = step.foot;
+        end.length = end.reached() ? step.foot.distance : 0;
+        break;
+    }
+    if (known_[at(v)] != kUnknown) end = ends_[known_[at(v)]];
+    const VoronoiVertexId first = stack.empty() ? v : stack.front().vertex;
+    for (; !stack.empty(); stack.pop_back()) {
+        end.length += stack.back().length;
+        known_[at(stack.back().vertex)] = static_cast<std::uint32_t>(ends_.size());
+        ends_.push_back(end);
+    }
+    return ends_[known_[at(first)]];
+}
+
+double Descent::distance_at(PolygonId p, Vec3 x, double radius) const {
+    Step best{kInfinity, {}, {}};
+    try_polygon(p, {x, radius, kInfinity, {}}, best);
+    return best.value;
+}
+
+}  // namespace lumenline

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/characterize/path_pieces.h"
+#include "engine/core/voronoi_complex.h"
+
+namespace lumenline {
+
+/// Where a descent ends, and its length.
+struct DescentEnd {
+    PathFoot foot;      ///< c(p); its `distance` is that of the last step
+    double length = 0;  ///< of the whole descent [length]
+
+    [[nodiscard]] bool reached() const { return !foot.line.is_none(); }
+};
+
+/// Steepest descent of T~ on the complex down to a path (Antiga et al. 2003, section 2.2), as trace_back.cpp does for
+/// T: from the point reached, the best next point is the one on the edges of the polygons around it, or on a path in
+/// one of them, that minimises T~ there plus the distance between the two. Ends are remembered per vertex, so that
+/// descents that meet in a vertex are walked once.
+class Descent {
+public:
+    /// @param distance  T~ per vertex; both must outlive the descent
+    Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const double> distance);
+
+    /// @returns reached() is false where T~ is infinite
+    /// @cost O(polygons crossed) up to the first vertex known from before
+    DescentEnd from(VoronoiVertexId v);
+
+    /// T~ at the point x of the polygon p: the best first step of a descent from there.
+    [[nodiscard]] double distance_at(PolygonId p, Vec3 x, double radius) const;
+
+private:
+    /// The next point of a descent.
+    struct Step {
+        double value;        ///< T~ there plus the distance to it
+        ComplexPoint place;  ///< none where `foot` is the next point
+        PathFoot foot;       ///< on a path
+    };
+    /// A point of a descent.
+    struct Here {
+        Vec3 x;
+        double radius = 0;
+        double time;         ///< T~
+        ComplexPoint place;  ///< none = inside a polygon
+    };
+
+    void try_polygon(PolygonId p, const Here& here, Step& best) const;
+    [[nodiscard]] Here arrive(const ComplexPoint& place) const;
+    Step best_step(const Here& here) const;
+
+    const VoronoiComplex& complex_;
+    const PathPieces& pieces_;
+    std::span<const double> time_;
+    std::vector<std::uint32_t> known_;  ///< per vertex, into ends_; kUnknown
+    std::vector<DescentEnd> ends_;
+};
+
+}  // namespace lumenline
