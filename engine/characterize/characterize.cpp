@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/characterize/descent.h"
+#include "engine/characterize/medial_ball.h"
 #include "engine/characterize/path_pieces.h"
 #include "engine/characterize/statistics.h"
 #include "engine/core/text.h"
@@ -51,12 +52,16 @@ public:
         result_.centerline_point.assign(n, {kNaN, kNaN, kNaN});
         result_.centerline_id.assign(n, {});
         result_.zone.resize(n);
+        MedialBalls balls(surface_, complex_);
         Descent descent(complex_, pieces_, result_.centerline_distance);
         for (std::size_t i = 0; i < n; ++i) {
             if (i % 16384 == 0) context_.check_cancelled();
             result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;
             if (const VoronoiVertexId pole = complex_.pole[i]; !pole.is_none())
-                if (const DescentEnd end = descent.from(pole); end.reached()) place(i, pole, end);
+                if (const DescentEnd end = descent.from(pole); end.reached()) {
+                    place(i, pole, end);
+                    refine(i, balls.at_site(SiteId(i)), descent);
+                }
         }
         summarize_wall(surface_, result_);
         if (result_.unreached > 0)
@@ -80,6 +85,19 @@ private:
         result_.centerline_id[i] = end.foot.line;
         result_.abscissa[i] = along(lines_.path.line_abscissa, end.foot);
         if (result_.zone[i] == SiteZone::kWall && in_end_zone(end.foot)) result_.zone[i] = SiteZone::kEndZone;
+    }
+
+    void refine(std::size_t i, const BallCentre& centre, const Descent& descent) {
+        const double first = centre.found() ? distance(surface_.points[i], centre.x) : 0;
+        const double second = centre.found() ? descent.distance_at(centre.polygon, centre.x, first) : kNaN;
+        if (!(second < std::numeric_limits<double>::infinity())) {
+            result_.geodesic_distance_refined[i] = result_.geodesic_distance[i];
+            result_.normalized_tangency_deviation_refined[i] = result_.normalized_tangency_deviation[i];
+            if (result_.zone[i] == SiteZone::kWall) ++result_.not_refined;
+            return;
+        }
+        result_.geodesic_distance_refined[i] = first + second;
+        result_.normalized_tangency_deviation_refined[i] = second / (first + second);
     }
 
     static double along(const std::vector<double>& values, const PathFoot& foot) {

@@ -1,0 +1,102 @@
+// Coordinates are taken in units of the two rings' size, so that the normal equations, solved by Cholesky, are of
+// order one at any scale.
+#include "engine/characterize/surface_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lumenline {
+
+namespace {
+
+constexpr int kTerms = 5;
+constexpr double kSingular = 1e-10;  // of a diagonal of order one: the neighbours do not determine the quadric
+
+using Matrix = std::array<std::array<double, kTerms>, kTerms>;
+using Vector = std::array<double, kTerms>;
+
+/// Solves m x = r in place of r, m symmetric with its lower half given; false where it is singular.
+bool solve_cholesky(Matrix& m, Vector& r) {
+    for (int j = 0; j < kTerms; ++j) {
+        const double before = m[j][j];
+        for (int k = 0; k < j; ++k) m[j][j] -= m[j][k] * m[j][k];
+        if (!(m[j][j] > kSingular * before)) return false;
+        m[j][j] = std::sqrt(m[j][j]);
+        for (int i = j + 1; i < kTerms; ++i) {
+            for (int k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
+            m[i][j] /= m[j][j];
+        }
+    }
+    for (int i = 0; i < kTerms; ++i) {
+        for (int k = 0; k < i; ++k) r[i] -= m[i][k] * r[k];
+        r[i] /= m[i][i];
+    }
+    for (int i = kTerms; i-- > 0;) {
+        for (int k = i + 1; k < kTerms; ++k) r[i] -= m[k][i] * r[k];
+        r[i] /= m[i][i];
+    }
+    return true;
+}
+
+}  // namespace
+
+SurfaceFit::SurfaceFit(const Surface& surface)
+    : surface_(surface), offsets_(surface.site_count() + 1, 0), stamp_(surface.site_count(), 0) {
+    // On a closed oriented surface every edge is run through once each way.
+    for (const auto& t : surface.triangles)
+        for (const SiteId s : t) ++offsets_[at(s) + 1];
+    for (std::size_t i = 0; i + 1 < offsets_.size(); ++i) offsets_[i + 1] += offsets_[i];
+    neighbours_.resize(offsets_.back());
+    std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+    for (const auto& t : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) neighbours_[next[at(t[k])]++] = t[(k + 1) % 3];
+}
+
+void SurfaceFit::gather(SiteId site) {
+    ++turn_;
+    near_.clear();
+    stamp_[at(site)] = turn_;
+    const auto take = [&](SiteId s) {
+        if (stamp_[at(s)] == turn_) return;
+        stamp_[at(s)] = turn_;
+        near_.push_back(s);
+    };
+    for (const SiteId s : ring(site)) take(s);
+    const std::size_t first_ring = near_.size();
+    for (std::size_t i = 0; i < first_ring; ++i)
+        for (const SiteId s : ring(near_[i])) take(s);
+}
+
+LocalShape SurfaceFit::at_site(SiteId site) {
+    gather(site);
+    const Vec3 p = surface_.points[at(site)], n = surface_.normals[at(site)];
+    LocalShape shape{-1 * n, 0};
+    double size2 = 0;
+    for (const SiteId s : near_) size2 = std::max(size2, squared_norm(surface_.points[at(s)] - p));
+    if (near_.size() < kTerms || !(size2 > 0)) return shape;
+    const double scale = 1 / std::sqrt(size2);
+    const Vec3 e1 = scale * any_perpendicular(n), e2 = cross(n, e1);
+    Matrix m{};
+    Vector r{};
+    for (const SiteId s : near_) {
+        const Vec3 d = surface_.points[at(s)] - p;
+        const double u = dot(d, e1), v = dot(d, e2), z = scale * dot(d, n);
+        const Vector row{u, v, 0.5 * u * u, u * v, 0.5 * v * v};
+        for (int i = 0; i < kTerms; ++i) {
+            for (int j = 0; j <= i; ++j) m[i][j] += row[i] * row[j];
+            r[i] += row[i] * z;
+        }
+    }
+    if (!solve_cholesky(m, r)) return shape;
+    const auto [a, b, c, d, e] = r;
+    shape.inward = normalized(a * normalized(e1) + b * normalized(e2) - n);
+    // Eigenvalues of the second by the first fundamental form; a convex lumen has z fall away.
+    const double w = std::sqrt(1 + a * a + b * b), det_first = w * w;
+    const double det = (c * e - d * d) / (det_first * det_first);
+    const double half_trace = -0.5 * (c * (1 + b * b) - 2 * d * a * b + e * (1 + a * a)) / (det_first * w);
+    shape.curvature_max = scale * (half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - det)));
+    return shape;
+}
+
+}  // namespace lumenline

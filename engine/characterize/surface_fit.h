@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/surface.h"
+
+namespace lumenline {
+
+/// The surface around a site to second order.
+struct LocalShape {
+    Vec3 inward;               ///< unit normal into the lumen
+    double curvature_max = 0;  ///< largest normal curvature, positive where the lumen is convex [1/length]
+};
+
+/// Fits a quadric z = a u + b v + (c u^2 + 2 d u v + e v^2) / 2 through each site to its two rings of neighbours, by
+/// least squares. Vertex normals taken from triangles are wrong to first order of the edge on irregular meshes, those
+/// of the quadric to second order.
+class SurfaceFit {
+public:
+    /// Keeps a reference. @cost O(triangles)
+    explicit SurfaceFit(const Surface& surface);
+
+    /// @returns the vertex normal without curvature where the neighbours do not determine a quadric
+    /// @cost 0.5 us
+    LocalShape at_site(SiteId site);
+
+    /// Sites of the two rings of the last at_site, itself included.
+    [[nodiscard]] bool is_near(SiteId site) const { return stamp_[at(site)] == turn_; }
+
+private:
+    [[nodiscard]] std::span<const SiteId> ring(SiteId site) const {
+        return {neighbours_.data() + offsets_[at(site)], neighbours_.data() + offsets_[at(site) + 1]};
+    }
+    void gather(SiteId site);
+
+    const Surface& surface_;
+    std::vector<std::uint32_t> offsets_;  ///< (N+1) into neighbours_
+    std::vector<SiteId> neighbours_;
+    std::vector<std::uint32_t> stamp_;
+    std::uint32_t turn_ = 0;
+    std::vector<SiteId> near_;  ///< of the last site, without itself
+};
+
+}  // namespace lumenline
