@@ -3,13 +3,10 @@
 // Neighbouring rings are zipped by the strip of fewest folded triangles and, among those, of least
 // squared edges (Fuchs, Kedem, Uselton 1977), a shortest path in a band of the grid (vertex of one
 // ring, vertex of the other). Greedy choices, by angle or by length, fold jittered rings.
-// Randomness: raw mt19937_64 words turned into uniform and normal numbers here, because the
-// standard library's distributions differ between implementations.
 #include "engine/phantom/phantom.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,6 +14,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
+#include "engine/phantom/random.h"
 #include "engine/phantom/section.h"
 
 namespace lumenline {
@@ -29,24 +27,6 @@ constexpr double kMaxJitter = 0.4;   // rows are sqrt(3)/2 edges apart: beyond 0
 constexpr std::size_t kMaxLead = 4;  // edges by which the zipper may run ahead on one ring
 constexpr double kMaxNoise = 0.5;
 constexpr double kNoiseReach = 6;  // standard deviations that must fit into the space there is
-
-class RandomStream {
-public:
-    explicit RandomStream(std::uint64_t seed) : engine_(seed) {}
-
-    // In [0, 1), all 53 bits.
-    double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    // In [-1, 1).
-    double symmetric() { return 2 * unit() - 1; }
-    // Mean 0, variance 1 (Box and Muller).
-    double normal() {
-        const double radius = std::sqrt(-2 * std::log(1 - unit()));
-        return radius * std::cos(2 * pi * unit());
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
 
 // Consecutive vertices around the axis; share[i] is vertex i's place around in turns, ascending,
 // less than one turn in all.
