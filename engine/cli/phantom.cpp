@@ -16,9 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/cli/phantom_table.h"
 #include "engine/cli/run.h"
 #include "engine/core/text.h"
 #include "engine/phantom/phantom.h"
+#include "engine/phantom/tree.h"
 #include "io/mesh/mesh_io.h"
 
 namespace lumenline {
@@ -31,6 +33,11 @@ struct PhantomArguments {
     std::string kind, output, truth, offset;
     double turns = 0.75;
     double length = 50;
+};
+
+struct TreeArguments {
+    TreeOptions options;
+    std::string output, truth, offset;
 };
 
 // An option that only some kinds have.
@@ -111,6 +118,67 @@ int run(const PhantomArguments& arguments, const std::vector<KindOption>& table)
     return kDone;
 }
 
+// Rows of the axis of every branch, a quarter of an edge apart or a little less. Abscissas count from the root.
+void write_truth(const std::string& path, const TreePhantom& tree, int points_around) {
+    std::ofstream file(path);
+    file << "branch\tparent\tabscissa\tx\ty\tz\tradius\tnear_junction\n";
+    const auto& branches = tree.truth.branches();
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+        const TreeBranch& b = branches[i];
+        const double edge = 2 * std::numbers::pi * b.end_radius / points_around;
+        const auto steps = static_cast<std::size_t>(std::ceil(4 * b.length() / edge));
+        const std::string parent = b.parent == TreeBranch::kNoParent ? "-1" : std::to_string(b.parent);
+        for (std::size_t k = 0; k <= steps; ++k) {
+            const TreeAbscissa at{i, b.length() * (static_cast<double>(k) / static_cast<double>(steps))};
+            const Vec3 p = tree.truth.position(at);
+            file << i << '\t' << parent << '\t' << exact_text(b.abscissa + at.s) << '\t' << exact_text(p.x) << '\t'
+                 << exact_text(p.y) << '\t' << exact_text(p.z) << '\t' << exact_text(tree.truth.inscribed_radius(at))
+                 << '\t' << (tree.truth.near_junction(at) ? 1 : 0) << '\n';
+        }
+    }
+    file.close();
+    if (!file) throw std::runtime_error("cannot write the truth to " + path);
+}
+
+int run(const TreeArguments& arguments) {
+    TreePhantom tree;
+    TreeOptions options = arguments.options;
+    try {
+        if (!arguments.offset.empty()) options.offset = parse_offset(arguments.offset);
+        tree = make_tree(options);
+    } catch (const std::invalid_argument& error) {
+        fmt::print(stderr, "lumenline phantom: {}\n", error.what());
+        return kUsage;
+    }
+    write_surface(arguments.output, tree.points, tree.triangles);
+    if (!arguments.truth.empty()) write_truth(arguments.truth, tree, options.points_around);
+    return kDone;
+}
+
+void add_tree(CLI::App& phantom, std::function<int()>& action) {
+    auto arguments = std::make_shared<TreeArguments>();
+    TreeOptions& o = arguments->options;
+    CLI::App* verb = phantom.add_subcommand("tree", "Write a branching lumen of blended, tapered tubes and its truth");
+    verb->add_option("-o,--output", arguments->output, "Surface file to write: .stl, .ply, .obj, .off or .vtk")
+        ->required();
+    verb->add_option("--leaves", o.leaves, "Outlets: a power of two")->capture_default_str();
+    verb->add_option("--a", o.a, "Radius at the root")->capture_default_str();
+    verb->add_option("--length", o.length, "Of a branch, in its own radii")->capture_default_str();
+    verb->add_option("--points-around", o.points_around, "Edges around a tube, on the leaves as on the root")
+        ->capture_default_str();
+    verb->add_option("--seed", o.seed, "Of directions and lengths")->capture_default_str();
+    verb->add_flag("--capped", o.caps, "Close root and leaves with flat caps");
+    verb->add_option("--scale", o.scale, "Factor for all lengths")->capture_default_str();
+    verb->add_option("--offset", arguments->offset, "Shift X,Y,Z after scaling");
+    verb->add_option(
+        "--truth", arguments->truth,
+        "Write the axes of all branches to this TSV file: inscribed radius, and whether a junction is near");
+    verb->footer(
+        "Example: lumenline phantom tree -o tree.ply --leaves 8 --truth tree.tsv\n"
+        "Exit status: 0 written, 1 a file could not be written, 2 usage error or impossible geometry.");
+    verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
 std::vector<KindOption> add_shape_options(CLI::App& verb, PhantomArguments& arguments) {
     PhantomOptions& o = arguments.options;
     std::vector<KindOption> table;
@@ -152,9 +220,13 @@ void add_mesh_options(CLI::App& verb, PhantomArguments& arguments) {
 void add_phantom(CLI::App& app, std::function<int()>& action) {
     auto arguments = std::make_shared<PhantomArguments>();
     CLI::App* verb = app.add_subcommand("phantom", "Write an analytic test shape and its truth");
-    verb->add_option("KIND", arguments->kind, "cylinder, torus, helix, stenosis or hairpin")->required();
-    verb->add_option("-o,--output", arguments->output, "Surface file to write: .stl, .ply, .obj, .off or .vtk")
-        ->required();
+    verb->require_subcommand(0, 1);
+    add_tree(*verb, action);
+    add_phantom_table(*verb, action);
+    // Required, but not beside a subcommand, which CLI11 cannot express.
+    verb->add_option("KIND", arguments->kind, "cylinder, torus, helix, stenosis or hairpin; or a subcommand");
+    verb->add_option("-o,--output", arguments->output,
+                     "Surface file to write (required): .stl, .ply, .obj, .off or .vtk");
     const std::vector<KindOption> table = add_shape_options(*verb, *arguments);
     add_mesh_options(*verb, *arguments);
     verb->footer(
@@ -163,9 +235,16 @@ void add_phantom(CLI::App& app, std::function<int()>& action) {
         "  lumenline phantom helix -o coil.stl --turns 3 --pitch 15 --capped\n"
         "  lumenline phantom stenosis -o narrow.ply --severity 0.7 --width 4 --noise 0.05 --seed 7\n"
         "  lumenline phantom hairpin -o loop.obj --a 5 --bend-radius 5.2\n"
+        "  lumenline phantom tree -o tree.ply --leaves 8 --truth tree_axes.tsv\n"
+        "  lumenline phantom table --seeds 1 --rows 3/5-10\n"
         "Write a negative shift as --offset=-1,2,3. Options that a KIND does not use are refused.\n"
         "Exit status: 0 written, 1 a file could not be written, 2 usage error or impossible geometry.");
-    verb->callback([arguments, table, &action] { action = [arguments, table] { return run(*arguments, table); }; });
+    verb->callback([arguments, table, verb, &action] {
+        if (!verb->get_subcommands().empty()) return;
+        if (arguments->kind.empty()) throw CLI::RequiredError("KIND");
+        if (arguments->output.empty()) throw CLI::RequiredError("--output");
+        action = [arguments, table] { return run(*arguments, table); };
+    });
 }
 
 }  // namespace lumenline

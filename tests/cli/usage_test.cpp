@@ -19,6 +19,11 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
         EXPECT_EQ(help.err, "") << verb;
         EXPECT_NE(help.out.find(std::string("lumenline ") + verb), std::string::npos) << help.out;
     }
+    for (const char* part : {"tree", "table"}) {
+        const Finished help = run_lumenline({"phantom", part, "--help"}, fresh_folder());
+        EXPECT_EQ(help.status, 0) << part;
+        EXPECT_NE(help.out.find("Exit status"), std::string::npos) << part;
+    }
     for (const char* part : {"list", "show", "tree", "get"}) {
         const Finished help = run_lumenline({"browse", "archive", part, "--help"}, fresh_folder());
         EXPECT_EQ(help.status, 0) << part;
@@ -70,6 +75,12 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"browse", "archive", "get", "id"}, "PATH"},
         {{"phantom"}, "KIND"},
         {{"phantom", "cylinder"}, "--output"},
+        {{"phantom", "tree", "--leaves", "2"}, "--output"},
+        {{"phantom", "tree", "-o", "a.ply", "--leaves", "6"}, "power of two"},
+        {{"phantom", "tree", "-o", "a.ply", "--offset=1,2"}, "--offset"},
+        {{"phantom", "tree", "-o", "a.ply", "--severity", "0.5"}, "--severity"},
+        {{"phantom", "table", "--seeds", "0"}, "--seeds"},
+        {{"phantom", "table", "--rows", "3/5-11"}, "3/5-11"},
         {{"phantom", "sphere", "-o", "a.ply"}, "sphere"},
         {{"phantom", "torus", "-o", "a.ply", "--pitch", "3"}, "--pitch"},
         {{"phantom", "cylinder", "-o", "a.ply", "--offset=1,2"}, "--offset"},
