@@ -196,6 +196,25 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(Vec3 p, Vec3 hint, TriangleId 
     return best;
 }
 
+double SurfaceDistance::nearest_vertex(Vec3 p, double within) const {
+    double best2 = within * within;
+    std::array<std::uint32_t, 128> stack;
+    std::size_t height = 0;
+    stack[height++] = 0;
+    while (height > 0) {
+        const Node& node = tree_->nodes[stack[--height]];
+        if (node.box.squared_distance(p) >= best2) continue;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corners& t = tree_->corners[i];
+            best2 = std::min({best2, squared_norm(p - t.a), squared_norm(p - t.b), squared_norm(p - t.c)});
+        }
+        if (node.count > 0) continue;
+        stack[height++] = node.first;
+        stack[height++] = node.first + 1;
+    }
+    return std::sqrt(best2);
+}
+
 double covering_radius(Vec3 a, Vec3 b, Vec3 c) {
     // Sides opposite to a, b, c, turned so that the largest angle is at c.
     double la = distance(b, c), lb = distance(c, a), lc = distance(a, b);

@@ -27,6 +27,10 @@ public:
     /// @param hint a point on `hint_triangle`; the closer to the answer, the faster
     [[nodiscard]] Nearest nearest(Vec3 p, Vec3 hint, TriangleId hint_triangle) const;
 
+    /// Distance to the nearest vertex of a triangle: the radius of the largest ball around p that holds no site.
+    /// @param within  no less than it, as the distance to any vertex [length]
+    [[nodiscard]] double nearest_vertex(Vec3 p, double within) const;
+
 private:
     struct Tree;
     std::unique_ptr<Tree> tree_;

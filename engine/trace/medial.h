@@ -1,0 +1,75 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/core/surface.h"
+#include "engine/geometry/curved_surface.h"
+#include "engine/geometry/surface_distance.h"
+#include "engine/trace/polyline.h"
+#include "engine/trace/ridge.h"
+
+namespace lumenline {
+
+/// A path moved off the complex to the medial axis of the curved surface.
+struct RefinedLine {
+    Polyline line;                           ///< with the distance to the curved surface as radius
+    std::vector<double> path_abscissa;       ///< per point: the path's abscissa it corresponds to, ascending [length]
+    std::vector<double> radius_error;        ///< per point: estimated error of the radius [length]
+    std::vector<double> position_error;      ///< per point: estimated distance from the true line [length]
+    double cost_before = 0, cost_after = 0;  ///< of path and line, by distances to the curved surface
+    double largest_stray = 0;                ///< largest distance of a node from where it started, in radii there
+};
+
+/// An end of a path to be refined.
+struct LineEnd {
+    bool free = false;  ///< moves in the plane of `direction`, as beyond an opening; else it stays
+    Vec3 direction;     ///< of the line there, unit, from start to end of the line; for free ends
+};
+
+/// Refines lines of one surface. Serves one thread.
+class MedialRefiner {
+public:
+    MedialRefiner(const Surface& surface, const SurfaceDistance& flat) : curved_(surface, flat) {}
+
+    /// The line of least cost near a path: nodes resampled along the path at half an edge's distance,
+    /// moved in their sections until the cost, with distances to the curved surface, is least.
+    /// @returns a line without points where the path is too short or no step could be made
+    [[nodiscard]] RefinedLine refine(const Polyline& path, const LineEnd& start, const LineEnd& end);
+
+private:
+    static constexpr std::size_t kDirections = 12;
+
+    /// A place of the wall in one direction from a node.
+    struct Contact {
+        Vec3 flat;  ///< on the flat surface, where the next search starts
+        TriangleId triangle;
+        SurfaceFoot foot;
+    };
+    struct Node {
+        Vec3 tangent;
+        Vec3 start;  ///< on the path
+        double path_abscissa = 0, path_radius = 0;
+        double radius = 0;  ///< distance to the nearest of its contacts [length]
+        double reach = 0;
+        std::vector<Contact> around;   ///< one per direction
+        std::vector<SurfaceFoot> met;  ///< feet of earlier rounds
+        Contact nearest;
+    };
+
+    void resample(const Polyline& path, const LineEnd& start, const LineEnd& end);
+    void make_sections(const LineEnd& start, const LineEnd& end);
+    void append_between(std::size_t node, RefinedLine& result);
+    void append(Vec3 x, double radius, std::size_t node, double share, RefinedLine& result) const;
+    void find_contacts(bool first_time);
+    void find_contacts(std::size_t node, bool first_time);
+    void add_bounds(std::size_t node);
+    void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, double reach, bool curved);
+    [[nodiscard]] double cost() const;
+
+    CurvedSurface curved_;
+    RidgeProblem problem_;
+    std::vector<Node> nodes_;
+    std::vector<SurfaceFoot> own_;  // scratch: feet of the node at hand
+};
+
+}  // namespace lumenline
