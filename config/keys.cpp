@@ -41,7 +41,7 @@ constexpr std::array kKeys{
     KeyInfo{"condition.extension_radii", "number", "", "opening radii", "1.2", {0, 100, false}},
     KeyInfo{"condition.check_self_intersections", "boolean", "", "-", "true"},
     KeyInfo{"centerlines", "map", "", "-", "{}"},
-    KeyInfo{"centerlines.refine", "choice", "none|path", "-", "path"},
+    KeyInfo{"centerlines.refine", "choice", "none|path|medial", "-", "medial"},
     KeyInfo{"centerlines.pairs", "choice", "nearest|all", "-", "nearest"},
     KeyInfo{"characterize", "boolean", "", "-", "true"},
     KeyInfo{"run", "map", "", "-", "{}"},

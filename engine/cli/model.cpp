@@ -88,12 +88,12 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     PipelineOptions& o = arguments.task.options;
     const std::map<std::string, EndpointMode> modes{
         {"auto", EndpointMode::kAuto}, {"boundaries", EndpointMode::kBoundaries}, {"points", EndpointMode::kPoints}};
-    const std::map<std::string, Refinement> refinements{{"none", Refinement::kNone}, {"path", Refinement::kPath}};
+    const std::map<std::string, Refinement> refinements{{"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}};
     const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
     verb.add_option("--mode", o.endpoints.mode, "How endpoints are found: auto, boundaries, points")
         ->transform(CLI::CheckedTransformer(modes))
         ->default_str("auto");
-    verb.add_option("--refine", o.trace.refine, "Line: none (as traced) or path (relaxed on the complex)")
+    verb.add_option("--refine", o.trace.refine, "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth surface's axis)")
         ->transform(CLI::CheckedTransformer(refinements))
         ->default_str("path");
     verb.add_option("--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all")

@@ -27,9 +27,11 @@ struct PathLines {
 struct Centerlines {
     std::vector<std::uint32_t> offsets;  ///< (L+1) into the arrays below
     std::vector<Vec3> points;            ///< (K) [length]
-    std::vector<double> ball_radius;     ///< (K) of the Voronoi ball [length]
+    std::vector<double> ball_radius;     ///< (K) of the largest ball around it that holds no site [length]
     std::vector<double> clearance;       ///< (K) distance to the triangulated surface [length]
     std::vector<double> radius;          ///< (K) best estimate of the maximal inscribed ball's radius [length]
+    std::vector<double> radius_error;    ///< (K) estimated error of `radius` [length]
+    std::vector<double> position_error;  ///< (K) estimated distance from the true line; NaN = no estimate [length]
     std::vector<double> abscissa;        ///< (K) arc length from the line's first point [length]
     std::vector<EndpointId> source;      ///< (L)
     std::vector<EndpointId> target;      ///< (L)

@@ -11,7 +11,10 @@ std::string_view mode_name(EndpointMode mode) {
     return kNames.at(static_cast<std::size_t>(mode));
 }
 
-std::string_view refinement_name(Refinement refinement) { return refinement == Refinement::kNone ? "none" : "path"; }
+std::string_view refinement_name(Refinement refinement) {
+    static constexpr std::array<std::string_view, 3> kNames{"none", "path", "medial"};
+    return kNames.at(static_cast<std::size_t>(refinement));
+}
 
 std::string_view pairs_name(Pairs pairs) { return pairs == Pairs::kNearest ? "nearest" : "all"; }
 
@@ -19,7 +22,7 @@ namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
-    "condition.version=1\nvoronoi.version=1\nendpoints.version=1\neikonal.version=1\ntrace.version=1\n"
+    "condition.version=1\nvoronoi.version=2\nendpoints.version=1\neikonal.version=1\ntrace.version=2\n"
     "characterize.version=1\n";
 
 std::string points_text(const std::vector<Vec3>& points) {

@@ -38,8 +38,9 @@ struct EndpointOptions {
 
 /// How a centerline is made from the arrival times.
 enum class Refinement : std::uint8_t {
-    kNone,  ///< the descent path as traced: the paper's line
-    kPath,  ///< relaxed on the complex to the shortest path of its polygon strip
+    kNone,    ///< the descent path as traced: the paper's line
+    kPath,    ///< relaxed on the complex to the shortest path of its polygon strip
+    kMedial,  ///< moved off the complex to the medial axis of the smooth surface through the sites
 };
 
 /// Which source-target pairs are traced.
@@ -50,7 +51,7 @@ enum class Pairs : std::uint8_t {
 
 /// Options of engine/trace.
 struct TraceOptions {
-    Refinement refine = Refinement::kPath;
+    Refinement refine = Refinement::kMedial;
     Pairs pairs = Pairs::kNearest;
 };
 
@@ -72,7 +73,7 @@ struct ModelTask {
 };
 
 std::string_view mode_name(EndpointMode mode);            ///< "auto" | "boundaries" | "points"
-std::string_view refinement_name(Refinement refinement);  ///< "none" | "path"
+std::string_view refinement_name(Refinement refinement);  ///< "none" | "path" | "medial"
 std::string_view pairs_name(Pairs pairs);                 ///< "nearest" | "all"
 
 /// Canonical text of everything in `task` that determines its result, one `key=value` a line:

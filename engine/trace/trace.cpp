@@ -8,6 +8,8 @@
 
 #include "engine/core/text.h"
 #include "engine/geometry/edge_update.h"
+#include "engine/trace/final_line.h"
+#include "engine/trace/medial.h"
 #include "engine/trace/path.h"
 #include "engine/trace/polyline.h"
 #include "engine/trace/verify.h"
@@ -52,6 +54,7 @@ public:
     Collector(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
               const TraceOptions& options, StageContext& context)
         : complex_(complex), endpoints_(endpoints), options_(options), context_(context), verifier_(surface) {
+        if (options.refine == Refinement::kMedial) refiner_.emplace(surface, verifier_.surface_distance());
         lines_.offsets.assign(1, 0);
         lines_.path.offsets.assign(1, 0);
     }
@@ -64,7 +67,7 @@ public:
             return;
         }
         Candidate line = make_line(*traced, options_.refine, from, to);
-        if (!line.check.inside && options_.refine == Refinement::kPath) {
+        if (!line.check.inside && options_.refine != Refinement::kNone) {
             line = make_line(*traced, Refinement::kNone, from, to);
             if (line.check.inside)
                 context_.note("line_not_relaxed", "the line to " + describe(endpoints_, target) +
@@ -87,7 +90,7 @@ public:
                                " has a ball that disagrees with its distance to the wall: its radii there are doubtful",
                            line.check.ball_excess, 0);
         note_gaps(line);
-        append(field.source, EndpointId(target), line);
+        append(field.source, EndpointId(target), line, final_line(line, from, to, target));
     }
 
     void report_unreached(std::size_t target) {
@@ -121,7 +124,7 @@ private:
     };
 
     Candidate make_line(ComplexPath path, Refinement refine, const Endpoint& from, const Endpoint& to) {
-        if (refine == Refinement::kPath) {
+        if (refine != Refinement::kNone) {
             thin_path(complex_, path, kMinStep);
             relax_path(complex_, path);
         }
@@ -155,13 +158,25 @@ private:
         }
     }
 
-    void append(EndpointId source, EndpointId target, const Candidate& line) {
+    FinalLine final_line(const Candidate& line, const Endpoint& from, const Endpoint& to, std::size_t target) {
+        if (refiner_) {
+            std::string why;
+            if (auto refined = refine_line(line.whole, from, to, *refiner_, verifier_, why)) return *std::move(refined);
+            context_.note("line_not_refined", "the line to " + describe(endpoints_, target) +
+                                                  " is kept on the Voronoi polygons: refined, it would " + why);
+        }
+        return unrefined_line(line.whole, line.cut, line.cut_front, line.check);
+    }
+
+    void append(EndpointId source, EndpointId target, const Candidate& line, const FinalLine& final) {
         const auto extend = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-        extend(lines_.points, line.cut.points);
-        extend(lines_.ball_radius, line.cut.radius);
-        extend(lines_.radius, line.cut.radius);
-        extend(lines_.clearance, line.check.clearance);
-        extend(lines_.abscissa, line.cut.abscissa);
+        extend(lines_.points, final.line.points);
+        extend(lines_.ball_radius, final.ball_radius);
+        extend(lines_.radius, final.line.radius);
+        extend(lines_.clearance, final.clearance);
+        extend(lines_.radius_error, final.radius_error);
+        extend(lines_.position_error, final.position_error);
+        extend(lines_.abscissa, final.line.abscissa);
         lines_.offsets.push_back(static_cast<std::uint32_t>(lines_.points.size()));
         lines_.source.push_back(source);
         lines_.target.push_back(target);
@@ -169,8 +184,7 @@ private:
         extend(lines_.path.ball_radius, line.whole.radius);
         extend(lines_.path.abscissa, line.whole.abscissa);
         extend(lines_.path.places, line.places);
-        for (const double s : line.whole.abscissa)
-            lines_.path.line_abscissa.push_back(std::clamp(s - line.cut_front, 0.0, line.cut.abscissa.back()));
+        extend(lines_.path.line_abscissa, final.path_to_line);
         lines_.path.offsets.push_back(static_cast<std::uint32_t>(lines_.path.points.size()));
     }
 
@@ -179,6 +193,7 @@ private:
     const TraceOptions& options_;
     StageContext& context_;
     LineVerifier verifier_;
+    std::optional<MedialRefiner> refiner_;  // of the lines, where that is asked for
     Centerlines lines_;
     double length_ = 0, gap_length_ = 0, largest_gap_ = 0;
     Vec3 gap_at_;

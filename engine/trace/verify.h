@@ -29,6 +29,7 @@ public:
     [[nodiscard]] LineCheck check(const Polyline& line);
 
     [[nodiscard]] const Surface& surface() const { return surface_; }
+    [[nodiscard]] const SurfaceDistance& surface_distance() const { return distance_; }
 
 private:
     struct Ball {

@@ -202,6 +202,8 @@ void write_centerlines(Writer& writer, const Centerlines& lines) {
     writer.column(names::kLineBallRadius, lines.ball_radius, points);
     writer.column(names::kClearance, lines.clearance, points);
     writer.column(names::kRadius, lines.radius, points);
+    writer.column(names::kRadiusError, lines.radius_error, points);
+    writer.column(names::kPositionError, lines.position_error, points);
     writer.column(names::kAbscissa, lines.abscissa, points);
     writer.column(names::kLineSource, lines.source, count);
     writer.column(names::kLineTarget, lines.target, count);

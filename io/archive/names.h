@@ -93,9 +93,13 @@ inline constexpr Field kResidual{"/voronoi/residual", "1",
 inline constexpr const char* kCenterlines = "/centerlines";
 inline constexpr Field kLinePoints{"/centerlines/points", "length", "points of all lines, each from source to target"};
 inline constexpr Field kLineOffsets{"/centerlines/offsets", "1", "start of each line in the arrays per point"};
-inline constexpr Field kLineBallRadius{"/centerlines/ball_radius", "length", "radius of the Voronoi ball"};
+inline constexpr Field kLineBallRadius{"/centerlines/ball_radius", "length",
+    "radius of the largest ball around the point that holds no site"};
 inline constexpr Field kClearance{"/centerlines/clearance", "length", "distance to the triangulated surface"};
 inline constexpr Field kRadius{"/centerlines/radius", "length", "best estimate of the maximal inscribed ball's radius"};
+inline constexpr Field kRadiusError{"/centerlines/radius_error", "length", "estimated error of radius"};
+inline constexpr Field kPositionError{"/centerlines/position_error", "length",
+    "estimated distance of the point from the true line; NaN = no estimate"};
 inline constexpr Field kAbscissa{"/centerlines/abscissa", "length", "arc length from the line's first point"};
 inline constexpr Field kLineSource{"/centerlines/source", "1", "endpoint where each line starts"};
 inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends"};

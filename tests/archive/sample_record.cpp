@@ -91,6 +91,8 @@ std::shared_ptr<const Centerlines> sample_lines() {
         lines->ball_radius.push_back(0.5 + k / 7.0);
         lines->clearance.push_back(0.4 + k / 7.0);
         lines->radius.push_back(0.45 + k / 7.0);
+        lines->radius_error.push_back(0.05 + k / 70.0);
+        lines->position_error.push_back(k == 3 ? std::numeric_limits<double>::quiet_NaN() : 0.01 + k / 70.0);
     }
     lines->source = {EndpointId(0), EndpointId(0)};
     lines->target = {EndpointId(1), EndpointId(3)};

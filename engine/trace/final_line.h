@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/endpoints.h"
+#include "engine/trace/medial.h"
+#include "engine/trace/polyline.h"
+#include "engine/trace/verify.h"
+
+namespace lumenline {
+
+/// A line as it is archived: between the planes of its openings, with all its values per point.
+struct FinalLine {
+    Polyline line;  ///< with the best estimate of the inscribed ball's radius
+    std::vector<double> ball_radius, clearance, radius_error, position_error;  ///< as Centerlines [length]
+    std::vector<double> path_to_line;  ///< per point of its path: abscissa on `line`, ascending [length]
+};
+
+/// The path itself as the line. True radii lie between clearance and ball radius: their difference is
+/// the radius error; there is no estimate of the position's.
+/// @param whole      the path from anchor to anchor
+/// @param cut        its part between the planes, which begins `cut_front` after its start
+FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_front, const LineCheck& check);
+
+/// The path refined, cut at the planes and checked like the path.
+/// @param why  set where there is no line: what the refined line would do, for the diagnostics
+/// @returns nothing where the refined line leaves the lumen, is costlier than the path by its own measure, strays
+///          from it by more than its balls' radii, or has no part between the planes
+std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from, const Endpoint& to,
+                                     MedialRefiner& refiner, LineVerifier& verifier, std::string& why);
+
+}  // namespace lumenline
