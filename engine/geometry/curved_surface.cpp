@@ -102,6 +102,7 @@ SurfaceFoot CurvedSurface::evaluate(const Place& place) {
     SurfaceFoot foot;
     foot.triangle = TriangleId(std::size_t{t});
     foot.point = p;
+    foot.weight = place.weight;
     if (part_[t] == Part::kCap) {
         foot.normal = flat_normal;
         const Vec3 u = any_perpendicular(flat_normal);
@@ -127,7 +128,6 @@ SurfaceFoot CurvedSurface::evaluate(const Place& place) {
         foot.point += (share * height) * normal;
         foot.normal += (share / steepness) * gradient + (weight - share) * flat_normal;
         for (std::size_t i = 0; i < 6; ++i) matrix[i] += share * 2 / steepness * q.matrix[i];
-        foot.uncertainty += weight * q.uncertainty;
     }
     foot.normal = normalized(foot.normal);
     const Vec3 u = any_perpendicular(foot.normal), v = cross(foot.normal, u);
@@ -176,6 +176,32 @@ SurfaceFoot CurvedSurface::foot(Vec3 x, Vec3 start, TriangleId triangle) {
         if (length < kConverged * edge) break;
     }
     return best;
+}
+
+double CurvedSurface::uncertainty(const SurfaceFoot& foot) {
+    const auto t = static_cast<std::uint32_t>(at(foot.triangle));
+    if (part_[t] == Part::kCap) return 0;
+    double sum2 = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double offset = quadrics_[quadric(t, k)].offset;
+        sum2 += foot.weight[static_cast<std::size_t>(k)] * offset * offset;
+    }
+    return std::sqrt(sum2);
+}
+
+double CurvedSurface::disturbance(const SurfaceFoot& foot, std::uint32_t draw) {
+    const auto t = static_cast<std::uint32_t>(at(foot.triangle));
+    if (part_[t] == Part::kCap) return 0;
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        const std::size_t corner = static_cast<std::size_t>(k);
+        std::uint64_t bits = (std::uint64_t{draw} << 32) + surface_.triangles[t][corner].value;
+        bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;  // splitmix64: one bit decides the sign
+        bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
+        const double offset = quadrics_[quadric(t, k)].offset;
+        sum += foot.weight[corner] * ((bits >> 40) % 2 == 0 ? offset : -offset);
+    }
+    return sum;
 }
 
 SurfaceFoot CurvedSurface::nearest(Vec3 x, Vec3 hint, TriangleId hint_triangle) {

@@ -16,7 +16,7 @@ struct SurfaceFoot {
     Vec3 normal;                        ///< unit, out of the lumen
     std::array<Vec3, 2> directions;     ///< unit principal directions, perpendicular to `normal`
     std::array<double, 2> curvature{};  ///< along them; positive where the lumen is convex [1/length]
-    double uncertainty = 0;             ///< how far the surface is expected to be off here [length]
+    std::array<double, 3> weight{};     ///< barycentric, of the triangle's corners
     TriangleId triangle;                ///< whose patch it is on
 };
 
@@ -43,6 +43,13 @@ public:
     /// The same from the nearest point of the flat surface.
     /// @param hint a point on the flat `hint_triangle`, as SurfaceDistance::nearest
     [[nodiscard]] SurfaceFoot nearest(Vec3 x, Vec3 hint, TriangleId hint_triangle);
+
+    /// How far the surface is expected to be off at a foot: root mean square of its sites' heights above
+    /// where their neighbours would put them [length].
+    [[nodiscard]] double uncertainty(const SurfaceFoot& foot);
+
+    /// One such error drawn at random, the same for all feet around a site. @param draw its number
+    [[nodiscard]] double disturbance(const SurfaceFoot& foot, std::uint32_t draw);
 
     [[nodiscard]] const Surface& surface() const { return surface_; }
     [[nodiscard]] const SurfaceDistance& flat() const { return flat_; }

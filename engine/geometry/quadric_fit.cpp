@@ -4,6 +4,7 @@
 // Cholesky factorisation of the normal equations serves them all: after forward substitution, the
 // first two, five or eight components of a row give that model's prediction and its leverage, hence
 // the error with which it predicts that neighbour when left out, (z - prediction) / (1 - leverage).
+// A last column of ones gives, as its coefficient, the height at which the neighbours alone see the site.
 #include "engine/geometry/quadric_fit.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace lumenline {
 
 namespace {
 
-constexpr std::size_t kTerms = 8;
+constexpr std::size_t kTerms = 9;
 constexpr std::array<std::size_t, 3> kModels{2, 5, 8};
 constexpr std::size_t kMostNeighbours = 64;  // farther ones would cost time and change little
 constexpr double kDependent = 1e-12;         // what is left of a column's square when those before it explain it
@@ -100,13 +101,11 @@ Quadric fit_quadric(std::span<const Vec3> around, Vec3 normal) {
     std::array<Sample, kMostNeighbours> samples;
     std::array<Row, kTerms> matrix{};
     Row right{};
-    double weights = 0;
     for (std::size_t n = 0; n < count; ++n) {
         const Vec3 d = (1 / unit) * around[n];
         const double x = dot(d, u), y = dot(d, v), z = dot(d, normal), d2 = squared_norm(d);
         const double weight = d2 > 0 ? 1 / d2 : 0.0;
-        samples[n] = {{x, y, x * x, x * y, y * y, x * z, y * z, z * z}, z, weight};
-        weights += weight;
+        samples[n] = {{x, y, x * x, x * y, y * y, x * z, y * z, z * z, 1}, z, weight};
         for (std::size_t i = 0; i < kTerms; ++i) {
             const double weighted = weight * samples[n].row[i];
             right[i] += weighted * z;
@@ -117,8 +116,8 @@ Quadric fit_quadric(std::span<const Vec3> around, Vec3 normal) {
     const Row solution = factor.forward(right);
     const auto errors = prediction_errors({samples.data(), count}, factor, solution);
     std::size_t best = 1;
-    if (count > kTerms && errors[2] < errors[1]) best = 2;
-    quadric.uncertainty = unit * std::sqrt(std::min(errors[best], errors[0]) / weights);
+    if (count >= kTerms && errors[2] < errors[1]) best = 2;
+    quadric.offset = unit * factor.backward(solution, kTerms)[kTerms - 1];
     if (!(errors[best] < errors[0])) return quadric;
     quadric.share = 1 - errors[best] / errors[0];
 

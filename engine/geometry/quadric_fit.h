@@ -22,7 +22,9 @@ struct Quadric {
     /// How much better than a plane the quadric predicts neighbours that are left out of its fit:
     /// 1 - (mean squares of its errors) / (those of a plane), 0 to 1.
     double share = 0;
-    double uncertainty = 0;  ///< root mean square error of that prediction [length]
+    /// Where its neighbours, without it, would put the site: height above it along the normal [length].
+    /// As large as the noise of sites, or else as what a quadric cannot follow.
+    double offset = 0;
 };
 
 /// Least squares fit to a site's neighbours, weighted by 1 / distance^2.

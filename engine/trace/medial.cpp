@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/geometry/segment_cost.h"
@@ -19,51 +20,51 @@ namespace lumenline {
 namespace {
 
 constexpr double kEdgesPerStep = 0.5;
-constexpr double kLeastStep = 0.05, kLargestStep = 0.25;  // of the radius
-constexpr double kWindow = 0.5;                           // of the radius: half the chord that gives a tangent
+constexpr double kLeastStep = 0.05, kLargestStep = 0.2;  // of the radius
+constexpr double kWindow = 0.5;                          // of the radius: half the chord that gives a tangent
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
-constexpr int kRounds = 5;
-constexpr double kSag = 1e-4;   // of the radius: how far the line may be from the curve through its nodes
-constexpr int kMostPieces = 4;  // of a segment
-constexpr double kRest = 2e-4;  // of the radius: moves below it end the rounds
+constexpr int kRounds = 8;
+constexpr int kMostPieces = 4;        // of a segment
+constexpr int kSearchRounds = 2;      // of them with searches in all directions
+constexpr std::size_t kStagger = 3;   // nodes in turn look in directions turned by this part of the angle between two
+constexpr double kRelevant = 3;       // reaches beyond the nearest place: farther ones cannot come to bear
+constexpr double kLeastReach = 1e-4;  // of the radius
+constexpr double kLeastStretch = 1e-3;
+constexpr double kAccuracy = 1e-10;
+constexpr double kRest = 2e-6;  // of the radius: moves below it end the rounds
 
 }  // namespace
 
 void MedialRefiner::resample(const Polyline& path, const LineEnd& start, const LineEnd& end) {
     const Surface& surface = curved_.surface();
+    const TriangleId first(std::size_t{0});
+    const Vec3 somewhere = surface.points[at(surface.triangles[0][0])];
     nodes_.clear();
     problem_.nodes.clear();
-    const auto& t0 = surface.triangles.front();
-    SurfaceDistance::Nearest wall{0, surface.points[at(t0[0])], TriangleId(std::size_t{0})};
     std::size_t segment = 0;
     const double whole = path.abscissa.back();
     for (double s = 0;;) {
         while (segment + 2 < path.size() && path.abscissa[segment + 1] < s) ++segment;
         const double length = path.abscissa[segment + 1] - path.abscissa[segment];
         const double t = length > 0 ? std::clamp((s - path.abscissa[segment]) / length, 0.0, 1.0) : 0.0;
-        const Vec3 x = lerp(path.points[segment], path.points[segment + 1], t);
-        wall = curved_.flat().nearest(x, wall.point, wall.triangle);
-        const auto& corners = surface.triangles[at(wall.triangle)];
-        double edge = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            edge += distance(surface.points[at(corners[k])], surface.points[at(corners[(k + 1) % 3])]) / 3;
         RidgeNode ridge;
-        ridge.position = x;
-        ridge.radius = wall.distance;
+        ridge.position = lerp(path.points[segment], path.points[segment + 1], t);
+        ridge.radius = std::lerp(path.radius[segment], path.radius[segment + 1], t);
         Node node;
-        node.start = x;
+        node.start = ridge.position;
         node.path_abscissa = s;
-        node.radius = node.path_radius = wall.distance;
-        node.reach = kFirstReach * wall.distance;
-        node.nearest = {wall.point, wall.triangle, {}};
+        node.radius = node.path_radius = ridge.radius;
+        node.reach = kFirstReach * ridge.radius;
+        node.flat = somewhere;
+        node.triangle = first;
         problem_.nodes.push_back(ridge);
         nodes_.push_back(std::move(node));
         if (s >= whole) break;
-        const double r = wall.distance;
-        const double step = std::clamp(kEdgesPerStep * edge, kLeastStep * r, kLargestStep * r);
-        s = s + 1.5 * step < whole ? s + step : whole;
+        const double step =
+            std::clamp(kEdgesPerStep * surface.median_edge, kLeastStep * ridge.radius, kLargestStep * ridge.radius);
         if (!(step > 0)) break;
+        s = s + 1.5 * step < whole ? s + step : whole;
     }
     if (!start.free) nodes_.front().reach = 0;
     if (!end.free) nodes_.back().reach = 0;
@@ -94,49 +95,61 @@ void MedialRefiner::make_sections(const LineEnd& start, const LineEnd& end) {
     }
 }
 
-void MedialRefiner::find_contacts(std::size_t i, bool first_time) {
+void MedialRefiner::find_around(std::size_t i, bool search) {
     Node& node = nodes_[i];
     const RidgeNode& ridge = problem_.nodes[i];
-    const Vec3 x = ridge.position;
     const double far = kLookAhead * node.radius;
-    if (first_time) node.around = i > 0 ? nodes_[i - 1].around : std::vector<Contact>(kDirections, node.nearest);
-    double least = std::numeric_limits<double>::infinity();
-    const auto offer = [&](const Contact& c) {
-        const double d = distance(x, c.foot.point);
-        if (d >= least) return;
-        least = d;
-        node.nearest.foot = c.foot;
-    };
+    if (search && i > 0) {
+        node.flat = nodes_[i - 1].flat;
+        node.triangle = nodes_[i - 1].triangle;
+    }
+    if (search)
+        node.around =
+            i > 0 ? nodes_[i - 1].around : std::vector<Contact>(kDirections, Contact{node.flat, node.triangle, {}});
     for (std::size_t k = 0; k < kDirections; ++k) {
-        const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kDirections;
-        const Vec3 p = x + (far * std::cos(angle)) * ridge.axes[0] + (far * std::sin(angle)) * ridge.axes[1];
+        const double turns = (static_cast<double>(k) + static_cast<double>(i % kStagger) / kStagger) / kDirections;
+        const double angle = 2 * std::numbers::pi * turns;
+        const Vec3 p =
+            ridge.position + (far * std::cos(angle)) * ridge.axes[0] + (far * std::sin(angle)) * ridge.axes[1];
         Contact& c = node.around[k];
-        if (first_time) {
+        if (search) {
             const SurfaceDistance::Nearest wall = curved_.flat().nearest(p, c.flat, c.triangle);
             c.flat = wall.point;
             c.triangle = wall.triangle;
+            c.foot = curved_.foot(p, wall.point, wall.triangle);
+        } else {
+            c.foot = curved_.foot(p, c.foot.point, c.foot.triangle);
         }
-        c.foot = curved_.foot(p, c.flat, c.triangle);
-        c.flat = c.foot.point;
-        c.triangle = c.foot.triangle;
-        offer(c);
     }
-    const SurfaceDistance::Nearest wall = curved_.flat().nearest(x, node.nearest.flat, node.nearest.triangle);
-    node.nearest.flat = wall.point;
-    node.nearest.triangle = wall.triangle;
-    offer({node.nearest.flat, node.nearest.triangle, curved_.foot(x, node.nearest.flat, node.nearest.triangle)});
-    node.radius = least;
 }
 
-void MedialRefiner::find_contacts(bool first_time) {
-    problem_.bounds.clear();
+void MedialRefiner::find_own_feet(std::size_t i) {
+    Node& node = nodes_[i];
+    const Vec3 x = problem_.nodes[i].position;
+    node.before.insert(node.before.end(), node.own.begin(), node.own.end());
+    node.own.clear();
+    const SurfaceDistance::Nearest wall = curved_.flat().nearest(x, node.flat, node.triangle);
+    node.flat = wall.point;
+    node.triangle = wall.triangle;
+    node.own.push_back(curved_.foot(x, wall.point, wall.triangle));
+    std::array<double, kDirections> d{};
+    for (std::size_t k = 0; k < kDirections; ++k) d[k] = distance(x, node.around[k].foot.point);
+    const double relevant = *std::min_element(d.begin(), d.end()) + kRelevant * node.reach;
+    for (std::size_t k = 0; k < kDirections; ++k) {
+        if (d[k] > relevant || d[k] > d[(k + 1) % kDirections] || d[k] > d[(k + kDirections - 1) % kDirections])
+            continue;
+        node.own.push_back(curved_.foot(x, node.around[k].foot.point, node.around[k].foot.triangle));
+    }
+}
+
+void MedialRefiner::find_places(int round) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        find_contacts(i, first_time);
-        add_bounds(i);
+        if (round < kSearchRounds) find_around(i, round == 0);
+        if (round < kSearchRounds || nodes_[i].moved > kRest * nodes_[i].radius) find_own_feet(i);
     }
 }
 
-void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, double reach, bool curved) {
+void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved, bool disturbed) {
     const Vec3 d = ridge.position - foot.point;
     WallBound bound;
     bound.value = norm(d);
@@ -151,48 +164,64 @@ void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, d
             const double k = foot.curvature[j];
             if (k <= 0) continue;
             // The foot slides by move / stretch: no farther than to the next direction's.
-            const double least = std::min(0.9, reach * kDirections / (std::numbers::pi * bound.value));
+            const double least =
+                std::clamp(ridge.reach * kDirections / (std::numbers::pi * bound.value), kLeastStretch, 0.9);
             const double kd = std::min(k * bound.value, 1.0);
-            const double bend = -kd / (bound.value * std::max(1 - kd, std::max(least, 1e-3)));
+            const double bend = -kd / (bound.value * std::max(1 - kd, least));
             const double a = dot(foot.directions[j], ridge.axes[0]), b = dot(foot.directions[j], ridge.axes[1]);
             bound.hessian[0] += bend * a * a;
             bound.hessian[1] += bend * a * b;
             bound.hessian[2] += bend * b * b;
         }
+    if (disturbed)
+        for (std::uint32_t draw = 0; draw < kDraws; ++draw) bound.disturbance[draw] = curved_.disturbance(foot, draw);
     problem_.bounds.push_back(bound);
 }
 
-void MedialRefiner::add_bounds(std::size_t i) {
+void MedialRefiner::set_bounds(bool disturbed) {
+    problem_.bounds.clear();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) set_bounds(i, disturbed);
+}
+
+void MedialRefiner::set_bounds(std::size_t i, bool disturbed) {
     Node& node = nodes_[i];
     RidgeNode& ridge = problem_.nodes[i];
-    ridge.radius = node.radius;
+    const std::size_t first = i > 0 ? i - 1 : i, last = std::min(i + 1, nodes_.size() - 1);
+    double least = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const SurfaceFoot& f) { least = std::min(least, distance(ridge.position, f.point)); };
+    for (std::size_t j = first; j <= last; ++j) {
+        for (const Contact& c : nodes_[j].around) offer(c.foot);
+        for (const SurfaceFoot& f : nodes_[j].own) offer(f);
+    }
+    for (const SurfaceFoot& f : node.before) offer(f);
+    node.radius = ridge.radius = least;
     ridge.reach = node.reach;
     ridge.first = static_cast<std::uint32_t>(problem_.bounds.size());
-    add_bound(ridge, node.nearest.foot, node.reach, true);
-    std::array<double, kDirections> d{};
-    for (std::size_t k = 0; k < kDirections; ++k) d[k] = distance(ridge.position, node.around[k].foot.point);
-    own_.clear();
-    const double relevant = node.radius + 3 * node.reach;
-    for (std::size_t k = 0; k < kDirections; ++k) {
-        if (d[k] > relevant) continue;
-        add_bound(ridge, node.around[k].foot, node.reach, false);
-        if (d[k] > d[(k + 1) % kDirections] || d[k] > d[(k + kDirections - 1) % kDirections]) continue;
-        own_.push_back(curved_.foot(ridge.position, node.around[k].flat, node.around[k].triangle));
-        add_bound(ridge, own_.back(), node.reach, true);
-        node.radius = std::min(node.radius, problem_.bounds.back().value);
+    const double relevant = least + kRelevant * node.reach;
+    const auto add = [&](const SurfaceFoot& f, bool curved) {
+        if (distance(ridge.position, f.point) <= relevant) add_bound(ridge, f, curved, disturbed);
+    };
+    for (const SurfaceFoot& f : node.own) add(f, true);
+    for (const SurfaceFoot& f : node.before) add(f, false);
+    for (std::size_t j = first; j <= last; ++j) {
+        for (const Contact& c : nodes_[j].around) add(c.foot, false);
+        if (j == i) continue;
+        for (const SurfaceFoot& f : nodes_[j].own) add(f, false);
     }
-    for (const SurfaceFoot& f : node.met) {
-        const double value = distance(ridge.position, f.point);
-        if (value > relevant) continue;
-        node.radius = std::min(node.radius, value);
-        add_bound(ridge, f, node.reach, false);
-    }
-    for (const Contact& c : node.around)
-        if (distance(ridge.position, c.foot.point) <= relevant) node.met.push_back(c.foot);
-    node.met.insert(node.met.end(), own_.begin(), own_.end());
-    node.met.push_back(node.nearest.foot);
-    ridge.radius = node.radius;
     ridge.last = static_cast<std::uint32_t>(problem_.bounds.size());
+}
+
+double MedialRefiner::move_nodes() {
+    double largest = 0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        RidgeNode& ridge = problem_.nodes[i];
+        if (ridge.reach <= 0) continue;
+        ridge.position += ridge.move[0] * ridge.axes[0] + ridge.move[1] * ridge.axes[1];
+        nodes_[i].moved = std::hypot(ridge.move[0], ridge.move[1]);
+        largest = std::max(largest, nodes_[i].moved / nodes_[i].radius);
+        nodes_[i].reach = std::min(nodes_[i].reach, std::max(2 * nodes_[i].moved, kLeastReach * nodes_[i].radius));
+    }
+    return largest;
 }
 
 double MedialRefiner::cost() const {
@@ -209,23 +238,17 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
     resample(path, start, end);
     if (nodes_.size() < 3) return result;
     for (int round = 0; round < kRounds; ++round) {
-        make_sections(start, end);
-        find_contacts(round == 0);
+        if (round < kSearchRounds) make_sections(start, end);
+        find_places(round);
+        set_bounds(false);
         if (round == 0) result.cost_before = cost();
-        if (!solve_ridge(problem_, 1e-10)) break;
-        double largest = 0;
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            RidgeNode& ridge = problem_.nodes[i];
-            if (ridge.reach <= 0) continue;
-            ridge.position += ridge.move[0] * ridge.axes[0] + ridge.move[1] * ridge.axes[1];
-            const double move = std::hypot(ridge.move[0], ridge.move[1]);
-            largest = std::max(largest, move / nodes_[i].radius);
-            nodes_[i].reach = std::min(nodes_[i].reach, std::max(2 * move, 1e-4 * nodes_[i].radius));
-        }
-        if (largest < kRest) break;
+        if (!solve_ridge(problem_, kAccuracy, false)) break;
+        if (move_nodes() < kRest) break;
     }
-    find_contacts(false);
+    find_places(kRounds);
+    set_bounds(true);
     result.cost_after = cost();
+    estimate_errors();
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         result.largest_stray = std::max(result.largest_stray,
                                         distance(problem_.nodes[i].position, nodes_[i].start) / nodes_[i].path_radius);
@@ -235,13 +258,28 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
     return result;
 }
 
+void MedialRefiner::estimate_errors() {
+    solve_ridge(problem_, kAccuracy, true);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        Node& node = nodes_[i];
+        const RidgeNode& ridge = problem_.nodes[i];
+        double sum2 = 0;
+        for (const SurfaceFoot& f : node.own) {
+            const double u = curved_.uncertainty(f);
+            sum2 += u * u / static_cast<double>(node.own.size());
+        }
+        node.uncertainty = std::sqrt(sum2);
+        node.radius_error = std::hypot(ridge.radius_response, node.uncertainty);
+        node.position_error = ridge.move_response;
+    }
+}
+
 void MedialRefiner::append(Vec3 x, double radius, std::size_t i, double share, RefinedLine& result) const {
     const std::size_t j = share > 0 ? i + 1 : i;
     result.line.append(x, radius);
     result.path_abscissa.push_back(std::lerp(nodes_[i].path_abscissa, nodes_[j].path_abscissa, share));
-    result.radius_error.push_back(
-        std::lerp(nodes_[i].nearest.foot.uncertainty, nodes_[j].nearest.foot.uncertainty, share));
-    result.position_error.push_back(0);
+    result.radius_error.push_back(std::lerp(nodes_[i].radius_error, nodes_[j].radius_error, share));
+    result.position_error.push_back(std::lerp(nodes_[i].position_error, nodes_[j].position_error, share));
 }
 
 void MedialRefiner::append_between(std::size_t i, RefinedLine& result) {
@@ -253,26 +291,21 @@ void MedialRefiner::append_between(std::size_t i, RefinedLine& result) {
     // Tangents of the circles through three nodes each, times the segment's length.
     const Vec3 at_b = (bc / (ab + bc)) * ((bc / ab) * (b - a) + (ab / bc) * (c - b));
     const Vec3 at_c = (bc / (bc + cd)) * ((cd / bc) * (c - b) + (bc / cd) * (d - c));
-    const double bulge = 0.125 * norm(at_b - at_c), allowed = kSag * nodes_[i].radius;
-    const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(bulge / allowed))), 1, kMostPieces);
-    for (int k = 1; k < pieces; ++k) {
-        const double t = static_cast<double>(k) / pieces, u = 1 - t;
-        const Vec3 x = (u * u * (1 + 2 * t)) * b + (t * t * (1 + 2 * u)) * c + (t * u * u) * at_b - (t * t * u) * at_c;
-        const SurfaceFoot* nearest = &nodes_[i].nearest.foot;
-        double least = distance(x, nearest->point);
-        const auto offer = [&](const SurfaceFoot& f) {
-            const double r = distance(x, f.point);
-            if (r >= least) return;
-            least = r;
-            nearest = &f;
-        };
-        for (const std::size_t node : {i, i + 1}) {
-            offer(nodes_[node].nearest.foot);
-            for (const SurfaceFoot& f : nodes_[node].met) offer(f);
-        }
-        const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
-        append(x, std::min(r, least), i, t, result);
+    const Vec3 x = 0.5 * (b + c) + 0.125 * (at_b - at_c);
+    const SurfaceFoot* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const SurfaceFoot& f) {
+        const double r = distance(x, f.point);
+        if (r >= least) return;
+        least = r;
+        nearest = &f;
+    };
+    for (const std::size_t node : {i, i + 1}) {
+        for (const SurfaceFoot& f : nodes_[node].own) offer(f);
+        for (const Contact& contact : nodes_[node].around) offer(contact.foot);
     }
+    const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
+    append(x, std::min(r, least), i, 0.5, result);
 }
 
 }  // namespace lumenline

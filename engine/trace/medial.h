@@ -49,27 +49,34 @@ private:
         Vec3 tangent;
         Vec3 start;  ///< on the path
         double path_abscissa = 0, path_radius = 0;
-        double radius = 0;  ///< distance to the nearest of its contacts [length]
+        double radius = 0;  ///< distance to the nearest place known [length]
         double reach = 0;
-        std::vector<Contact> around;   ///< one per direction
-        std::vector<SurfaceFoot> met;  ///< feet of earlier rounds
-        Contact nearest;
+        double moved = 0;                 ///< in the last round [length]
+        std::vector<Contact> around;      ///< one per direction
+        std::vector<SurfaceFoot> own;     ///< its own feet
+        std::vector<SurfaceFoot> before;  ///< those of earlier rounds
+        Vec3 flat;                        ///< nearest point of the flat surface
+        TriangleId triangle;
+        double uncertainty = 0, radius_error = 0, position_error = 0;  ///< [length]
     };
 
     void resample(const Polyline& path, const LineEnd& start, const LineEnd& end);
     void make_sections(const LineEnd& start, const LineEnd& end);
+    void find_around(std::size_t node, bool search);
+    void find_own_feet(std::size_t node);
+    void find_places(int round);
+    void set_bounds(bool disturbed);
+    void set_bounds(std::size_t node, bool disturbed);
+    void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved, bool disturbed);
+    double move_nodes();
+    void estimate_errors();
+    [[nodiscard]] double cost() const;
     void append_between(std::size_t node, RefinedLine& result);
     void append(Vec3 x, double radius, std::size_t node, double share, RefinedLine& result) const;
-    void find_contacts(bool first_time);
-    void find_contacts(std::size_t node, bool first_time);
-    void add_bounds(std::size_t node);
-    void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, double reach, bool curved);
-    [[nodiscard]] double cost() const;
 
     CurvedSurface curved_;
     RidgeProblem problem_;
     std::vector<Node> nodes_;
-    std::vector<SurfaceFoot> own_;  // scratch: feet of the node at hand
 };
 
 }  // namespace lumenline

@@ -46,7 +46,9 @@ struct Slack {
 
 class Solver {
 public:
-    Solver(RidgeProblem& problem, double accuracy) : problem_(problem), accuracy_(accuracy) {
+    Solver(RidgeProblem& problem, double accuracy, bool responses)
+        : problem_(problem), accuracy_(accuracy), responses_(responses) {
+        for (const RidgeNode& n : problem.nodes) scale_.push_back(n.radius);
         const std::size_t n = problem.nodes.size();
         w_.assign(n, Column::Zero());
         step_.assign(n, Column::Zero());
@@ -62,11 +64,13 @@ public:
         double mu = start_mu_;
         for (int k = 0; k < kMaxSteps; ++k) {
             assemble(mu);
-            if (!eliminate()) return false;
+            if (!factor()) return false;
+            substitute();
             const double shared = advance(mu);
             if (mu <= accuracy_ && shared > 0.9 && largest_step() < kAtRest) break;
             if (shared > 0.5) mu = std::max(mu * kMuFall, 0.5 * accuracy_);
         }
+        if (responses_) respond(mu);
         finish();
         return true;
     }
@@ -180,29 +184,57 @@ private:
         above_[i] += ab;
     }
 
-    /// Block elimination; false where a pivot is singular.
-    bool eliminate() {
-        const std::size_t n = w_.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i > 0) {
-                const Block factor = above_[i - 1].transpose() * diagonal_[i - 1];  // inverted already
-                diagonal_[i] -= factor * above_[i - 1];
-                right_[i] -= factor * right_[i - 1];
-            }
+    /// Factors the block tridiagonal matrix in place, its diagonal blocks to inverses of pivots; false where one
+    /// is singular.
+    bool factor() {
+        for (std::size_t i = 0; i < w_.size(); ++i) {
+            if (i > 0) diagonal_[i] -= above_[i - 1].transpose() * diagonal_[i - 1] * above_[i - 1];
             diagonal_[i].diagonal().array() += kRegular * diagonal_[i].trace();
             Block inverse;
             bool invertible = false;
             diagonal_[i].computeInverseWithCheck(inverse, invertible, 0.0);
-            if (!invertible) return false;
+            if (!invertible || !inverse.allFinite()) return false;
             diagonal_[i] = inverse;
         }
+        return true;
+    }
+
+    /// Solves for step_ with the factored matrix; uses up right_.
+    void substitute() {
+        const std::size_t n = w_.size();
+        for (std::size_t i = 1; i < n; ++i) right_[i] -= above_[i - 1].transpose() * (diagonal_[i - 1] * right_[i - 1]);
         for (std::size_t i = n; i-- > 0;) {
             Column r = right_[i];
             if (i + 1 < n) r -= above_[i] * step_[i + 1];
             step_[i] = diagonal_[i] * r;
-            if (!step_[i].allFinite()) return false;
         }
-        return true;
+    }
+
+    /// What the disturbances of the bounds would do, to first order.
+    void respond(double mu) {
+        assemble(mu);
+        if (!factor()) return;
+        std::vector<double> move2(w_.size(), 0.0), radius2(w_.size(), 0.0);
+        for (std::size_t draw = 0; draw < kDraws; ++draw) {
+            for (std::size_t i = 0; i < w_.size(); ++i) {
+                const RidgeNode& n = problem_.nodes[i];
+                right_[i].setZero();
+                for (std::uint32_t k = n.first; n.reach > 0 && k < n.last; ++k) {
+                    const Slack& s = slacks_[offsets_[i] + k - n.first];
+                    right_[i] -=
+                        (s.pressure / s.value * problem_.bounds[k].disturbance[draw] / scale_[i]) * s.gradient(w_[i]);
+                }
+            }
+            substitute();
+            for (std::size_t i = 0; i < w_.size(); ++i) {
+                move2[i] += step_[i].head<2>().squaredNorm();
+                radius2[i] += step_[i][2] * step_[i][2];
+            }
+        }
+        for (std::size_t i = 0; i < w_.size(); ++i) {
+            problem_.nodes[i].move_response = scale_[i] * std::sqrt(move2[i] / kDraws);
+            problem_.nodes[i].radius_response = scale_[i] * std::sqrt(radius2[i] / kDraws);
+        }
     }
 
     [[nodiscard]] double largest_step() const {
@@ -246,15 +278,18 @@ private:
 
     RidgeProblem& problem_;
     double accuracy_, start_mu_ = 0;
+    bool responses_;
     std::vector<Column> w_, step_, right_;
     std::vector<Block> diagonal_, above_;
-    std::vector<double> weight_;
+    std::vector<double> weight_, scale_;
     std::vector<Slack> slacks_;
     std::vector<std::uint32_t> offsets_;
 };
 
 }  // namespace
 
-bool solve_ridge(RidgeProblem& problem, double accuracy) { return Solver(problem, accuracy).run(); }
+bool solve_ridge(RidgeProblem& problem, double accuracy, bool responses) {
+    return Solver(problem, accuracy, responses).run();
+}
 
 }  // namespace lumenline
