@@ -64,15 +64,28 @@ public:
                 }
         }
         summarize_wall(surface_, result_);
+        result_.jumps = count_jumps(surface_, complex_, result_);
+        report();
+        return std::move(result_);
+    }
+
+private:
+    void report() {
+        const auto [sheet, meet, other] = result_.jumps;
         if (result_.unreached > 0)
             context_.note("sites_unreached",
                           counted(result_.unreached, "site") + " of " + std::to_string(result_.wall_sites) +
                               " of the wall have no path to a centerline, and no distances",
                           static_cast<double>(result_.unreached));
-        return std::move(result_);
+        if (sheet + meet + other > 0)
+            context_.note("correspondence_jumps",
+                          counted(sheet + meet + other, "edge") +
+                              " of the wall along which the distance or the point of the centerline jumps: " +
+                              std::to_string(sheet) + " where the pole changes sheet, " + std::to_string(meet) +
+                              " where branches meet, " + std::to_string(other) + " others",
+                          static_cast<double>(sheet + meet + other));
     }
 
-private:
     void place(std::size_t i, VoronoiVertexId pole, const DescentEnd& end) {
         const Vec3 p = surface_.points[i];
         const double first = distance(p, complex_.vertices[at(pole)]);

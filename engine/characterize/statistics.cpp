@@ -7,6 +7,13 @@
 
 namespace lumenline {
 
+namespace {
+
+constexpr double kJumpEdges = 3;     // edge lengths
+constexpr double kJumpRadii = 0.25;  // ball radii
+
+}  // namespace
+
 std::vector<double> wall_area_per_site(const Surface& surface) {
     std::vector<double> area(surface.site_count(), 0.0);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -45,6 +52,31 @@ AreaStatistics area_statistics(std::span<const double> values, std::span<const d
     result.median = quantile(0.5);
     result.p95 = quantile(0.95);
     return result;
+}
+
+JumpCounts count_jumps(const Surface& surface, const VoronoiComplex& complex, const SurfaceCharacter& character) {
+    JumpCounts jumps;
+    const auto counts = [&](SiteId s) {
+        return character.zone[at(s)] == SiteZone::kWall && !character.centerline_id[at(s)].is_none();
+    };
+    for (const auto& t : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const SiteId i = t[k], j = t[(k + 1) % 3];  // the surface is closed: the edge runs both ways
+            if (!(i < j) || !counts(i) || !counts(j)) continue;
+            const std::size_t pi = at(complex.pole[at(i)]), pj = at(complex.pole[at(j)]);
+            const double limit = std::max(kJumpEdges * distance(surface.points[at(i)], surface.points[at(j)]),
+                                          kJumpRadii * std::min(complex.ball_radius[pi], complex.ball_radius[pj]));
+            const double depth = std::fabs(character.geodesic_distance[at(i)] - character.geodesic_distance[at(j)]);
+            const double along = distance(character.centerline_point[at(i)], character.centerline_point[at(j)]);
+            if (depth <= limit && along <= limit) continue;
+            if (distance(complex.vertices[pi], complex.vertices[pj]) > limit)
+                ++jumps.pole_sheet;
+            else if (along > limit)
+                ++jumps.branches_meet;
+            else
+                ++jumps.other;
+        }
+    return jumps;
 }
 
 void summarize_wall(const Surface& surface, SurfaceCharacter& character) {

@@ -5,6 +5,7 @@
 
 #include "engine/core/surface.h"
 #include "engine/core/surface_character.h"
+#include "engine/core/voronoi_complex.h"
 
 namespace lumenline {
 
@@ -17,5 +18,8 @@ AreaStatistics area_statistics(std::span<const double> values, std::span<const d
 
 /// Fills wall_area, wall_sites, unreached and the statistics from the arrays per site and the zones.
 void summarize_wall(const Surface& surface, SurfaceCharacter& character);
+
+/// Counts the jumps (JumpCounts) along the edges of the wall. @cost O(triangles)
+JumpCounts count_jumps(const Surface& surface, const VoronoiComplex& complex, const SurfaceCharacter& character);
 
 }  // namespace lumenline

@@ -1,5 +1,7 @@
 // Coordinates are taken in units of the two rings' size, so that the normal equations, solved by Cholesky, are of
-// order one at any scale.
+// order one at any scale. A sphere of radius r has height |d|^2 / (2 r) at the chord d, which is no quadric of the
+// plane coordinates; heights scaled by (u^2 + v^2) / |d|^2 are. Without this the curvature of a round tube of 40 points
+// comes out 1.6 % too large, and with it every touching ball too small.
 #include "engine/characterize/surface_fit.h"
 
 #include <algorithm>
@@ -81,7 +83,9 @@ LocalShape SurfaceFit::at_site(SiteId site) {
     Vector r{};
     for (const SiteId s : near_) {
         const Vec3 d = surface_.points[at(s)] - p;
-        const double u = dot(d, e1), v = dot(d, e2), z = scale * dot(d, n);
+        const double u = dot(d, e1), v = dot(d, e2), height = scale * dot(d, n);
+        const double flat2 = u * u + v * v;
+        const double z = flat2 > 0 ? height * flat2 / (flat2 + height * height) : height;
         const Vector row{u, v, 0.5 * u * u, u * v, 0.5 * v * v};
         for (int i = 0; i < kTerms; ++i) {
             for (int j = 0; j <= i; ++j) m[i][j] += row[i] * row[j];

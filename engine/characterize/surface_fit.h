@@ -14,9 +14,9 @@ struct LocalShape {
     double curvature_max = 0;  ///< largest normal curvature, positive where the lumen is convex [1/length]
 };
 
-/// Fits a quadric z = a u + b v + (c u^2 + 2 d u v + e v^2) / 2 through each site to its two rings of neighbours, by
+/// Fits z = a u + b v + (c u^2 + 2 d u v + e v^2) / 2 through each site to its two rings of neighbours, by
 /// least squares. Vertex normals taken from triangles are wrong to first order of the edge on irregular meshes, those
-/// of the quadric to second order.
+/// of the quadric to second order; spheres are met exactly.
 class SurfaceFit {
 public:
     /// Keeps a reference. @cost O(triangles)

@@ -122,6 +122,9 @@ void show_character(const ArchiveFile& file, std::ostream& out) {
         table.add_row({name, table_number(v[0]), table_number(v[1]), table_number(v[2]), table_number(v[3])});
     }
     table.print(out);
+    const auto jumps = numbers(file, names::kJumps, 3);
+    out << "jumps along edges: " << jumps[0] << " pole changes sheet, " << jumps[1] << " branches meet, " << jumps[2]
+        << " other\n";
 }
 
 void show_diagnostics(const ArchiveFile& file, std::ostream& out) {

@@ -28,10 +28,11 @@ struct AreaStatistics {
     double p95 = std::numeric_limits<double>::quiet_NaN();  ///< 95 % of the area lies at or below it
 };
 
-/// Triangle edges of the counted wall along which D_g or c(p) jumps, by cause.
+/// Edges of the counted wall along which D_g or c(p) jumps: changes by more than three times the edge's length and a
+/// quarter of the smaller ball radius of the two poles. By cause:
 struct JumpCounts {
-    std::size_t pole_sheet = 0;     ///< the two sites' poles lie on different sheets of the complex
-    std::size_t branches_meet = 0;  ///< the sites belong to different lines, or to places far apart on one
+    std::size_t pole_sheet = 0;     ///< the poles are as far apart: the pole changes sheet
+    std::size_t branches_meet = 0;  ///< poles are close, c(p) far apart: their descents part, as where branches meet
     std::size_t other = 0;
 };
 
