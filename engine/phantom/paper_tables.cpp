@@ -2,6 +2,7 @@
 // structured meshes are exact by symmetry and prove little, hence the jitter here.
 #include "engine/phantom/paper_tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -39,6 +40,13 @@ constexpr std::array<NoiseRow, 12> kNoiseRows{{
     {"torus-40-10%", PhantomKind::kTorus, 5, 0.1},
 }};
 
+constexpr std::array<CharacterRow, 4> kCharacterRows{{
+    {"ntd-20", 20},
+    {"ntd-40", 40},
+    {"ntd-80", 80},
+    {"ntd-160", 160},
+}};
+
 RowFigures measure(PhantomOptions options, int seeds, const LineMaker& make_line) {
     options.a = kA;
     options.jitter = 0.2;
@@ -63,6 +71,7 @@ RowFigures measure(PhantomOptions options, int seeds, const LineMaker& make_line
 
 std::span<const PaperRow> paper_rows() { return kRows; }
 std::span<const NoiseRow> noise_rows() { return kNoiseRows; }
+std::span<const CharacterRow> character_rows() { return kCharacterRows; }
 
 double Spread::mean() const {
     double sum = 0;
@@ -108,6 +117,54 @@ EllipseCharacter ellipse_character(double a, double b, double t) {
     const double along = (a * a - b * b) / a * std::fabs(std::cos(t));
     const double ball = b / a * std::hypot(a * std::sin(t), b * std::cos(t));
     return {along + ball, along / (along + ball)};
+}
+
+CharacterFigures measure(const CharacterRow& row, int seeds, const RecordMaker& make_record) {
+    PhantomOptions options;
+    options.a = kA;
+    options.b = 3;
+    options.length = 6 * kA;
+    options.points_around = row.points_around;
+    options.jitter = 0.2;
+    options.rotate = true;
+    CharacterFigures figures;
+    const auto add = [&](CharacterErrors& errors, double distance, double deviation, const EllipseCharacter& truth) {
+        const double d = 100 * std::fabs(distance - truth.geodesic_distance) / kA;
+        const double n = std::fabs(deviation - truth.normalized_tangency_deviation);
+        errors.distance_mean += d;
+        errors.deviation_mean += n;
+        errors.distance_max = std::max(errors.distance_max, d);
+        errors.deviation_max = std::max(errors.deviation_max, n);
+    };
+    for (int seed = 1; seed <= seeds; ++seed) {
+        options.seed = static_cast<std::uint64_t>(seed);
+        const Phantom phantom = make_phantom(options);
+        const ModelRecord record = make_record(phantom);
+        const SurfaceCharacter& found = *record.character;
+        for (std::size_t i = 0; i < found.site_count(); ++i) {
+            const Vec3 x = record.surface->points[i];
+            const double s = phantom.truth.abscissa_of(x);
+            if (record.surface->origin[i] != SiteOrigin::kWall || s < kAtEnds * kA ||
+                s > phantom.truth.total_length() - kAtEnds * kA)
+                continue;
+            if (std::isnan(found.geodesic_distance[i])) {
+                ++figures.unreached;
+                continue;
+            }
+            const AxisFrame f = phantom.truth.frame(s);
+            const double t = std::atan2(dot(x - f.origin, f.e2) / options.b, dot(x - f.origin, f.e1) / options.a);
+            const EllipseCharacter truth = ellipse_character(options.a, options.b, t);
+            ++figures.sites;
+            add(figures.pole, found.geodesic_distance[i], found.normalized_tangency_deviation[i], truth);
+            add(figures.refined, found.geodesic_distance_refined[i], found.normalized_tangency_deviation_refined[i],
+                truth);
+        }
+    }
+    for (CharacterErrors* errors : {&figures.pole, &figures.refined}) {
+        errors->distance_mean /= static_cast<double>(figures.sites);
+        errors->deviation_mean /= static_cast<double>(figures.sites);
+    }
+    return figures;
 }
 
 }  // namespace lumenline

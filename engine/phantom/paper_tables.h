@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/model_record.h"
 #include "engine/phantom/accuracy.h"
 #include "engine/phantom/phantom.h"
 
@@ -93,5 +94,33 @@ struct EllipseCharacter {
     double normalized_tangency_deviation = 0;  ///< the first term's share
 };
 EllipseCharacter ellipse_character(double a, double b, double t);
+
+/// Errors of geodesic distance [% of the greatest radius] and normalized tangency deviation [its unit].
+struct CharacterErrors {
+    double distance_mean = 0, distance_max = 0, deviation_mean = 0, deviation_max = 0;
+};
+
+/// The 3/5 cylinder of length 6 a against its closed form.
+struct CharacterRow {
+    std::string_view name;  ///< "ntd-40": points around
+    int points_around;
+};
+
+/// 20, 40, 80 and 160 points around.
+std::span<const CharacterRow> character_rows();
+
+/// Over the wall more than 1.2 of the greatest radius from either end and the sites that reach the line.
+struct CharacterFigures {
+    CharacterErrors pole;     ///< with the paper's pole
+    CharacterErrors refined;  ///< with the ball that touches at the site
+    std::size_t sites = 0;    ///< compared, over all seeds
+    std::size_t unreached = 0;
+};
+
+/// Computes a phantom with its characterization; throws what it likes.
+using RecordMaker = std::function<ModelRecord(const Phantom&)>;
+
+/// As the other rows: means over sites and seeds, maxima over all.
+CharacterFigures measure(const CharacterRow& row, int seeds, const RecordMaker& make_record);
 
 }  // namespace lumenline

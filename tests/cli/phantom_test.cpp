@@ -81,11 +81,12 @@ TEST(PhantomTable, TsvHasAColumnForEveryFigureAndStaysTheSame) {
 
 TEST(PhantomTable, RowsOfAllTablesCanBeChosen) {
     const Finished run =
-        run_lumenline({"phantom", "table", "--seeds", "1", "--rows", "2/5-40,5/5-40-10%"}, fresh_folder());
+        run_lumenline({"phantom", "table", "--seeds", "1", "--rows", "2/5-40,5/5-40-10%,ntd-20"}, fresh_folder());
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_NE(run.out.find("Table 1"), std::string::npos) << run.out;
     EXPECT_EQ(run.out.find("Table 2"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("Noise"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("Characterization"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("2.17(1.34)"), std::string::npos) << run.out;
 }
 

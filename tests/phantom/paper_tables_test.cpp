@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
@@ -85,6 +85,39 @@ TEST(EllipseCharacter, TwoTermsMeetTheFormOfTheEccentricity) {
                         1e-13);
         }
     EXPECT_EQ(ellipse_character(5, 5, 1).normalized_tangency_deviation, 0);
+}
+
+/// A record whose sites are the phantom's vertices, with the closed form, D_g too large by `excess`.
+ModelRecord record_with(const Phantom& phantom, double excess) {
+    auto surface = std::make_shared<Surface>();
+    auto character = std::make_shared<SurfaceCharacter>();
+    surface->points = phantom.points;
+    surface->origin.assign(phantom.points.size(), SiteOrigin::kWall);
+    for (const Vec3& x : phantom.points) {
+        const AxisFrame f = phantom.truth.frame(phantom.truth.abscissa_of(x));
+        const Vec3 d = x - f.origin;
+        const EllipseCharacter truth = ellipse_character(5, 3, std::atan2(dot(d, f.e2) / 3, dot(d, f.e1) / 5));
+        character->geodesic_distance.push_back(truth.geodesic_distance + excess);
+        character->geodesic_distance_refined.push_back(truth.geodesic_distance);
+        character->normalized_tangency_deviation.push_back(truth.normalized_tangency_deviation);
+        character->normalized_tangency_deviation_refined.push_back(truth.normalized_tangency_deviation - 0.01);
+    }
+    ModelRecord record;
+    record.surface = surface;
+    record.character = character;
+    return record;
+}
+
+TEST(CharacterRows, ErrorsOfBothPolesAreSeenApart) {
+    const CharacterFigures f =
+        measure(character_rows().front(), 2, [](const Phantom& phantom) { return record_with(phantom, 0.05); });
+    EXPECT_GT(f.sites, 0U);
+    EXPECT_EQ(f.unreached, 0U);
+    EXPECT_NEAR(f.pole.distance_mean, 1, 1e-9);
+    EXPECT_NEAR(f.pole.distance_max, 1, 1e-9);
+    EXPECT_NEAR(f.pole.deviation_max, 0, 1e-12);
+    EXPECT_NEAR(f.refined.distance_max, 0, 1e-9);
+    EXPECT_NEAR(f.refined.deviation_mean, 0.01, 1e-12);
 }
 
 TEST(PaperRows, LineThatFailsIsNotSkipped) {
