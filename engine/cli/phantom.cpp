@@ -21,6 +21,7 @@
 #include "engine/core/text.h"
 #include "engine/phantom/phantom.h"
 #include "engine/phantom/tree.h"
+#include "engine/phantom/voxels.h"
 #include "io/mesh/mesh_io.h"
 
 namespace lumenline {
@@ -30,6 +31,7 @@ using enum PhantomKind;
 
 struct PhantomArguments {
     PhantomOptions options;
+    VoxelOptions voxels{0, 0};
     std::string kind, output, truth, offset;
     double turns = 0.75;
     double length = 50;
@@ -88,14 +90,16 @@ PhantomOptions resolved(const PhantomArguments& arguments) {
     return o;
 }
 
-// Rows of abscissa, axis point and inscribed radius, a quarter of an edge apart or a little less.
-void write_truth(const std::string& path, const Phantom& phantom) {
+// Rows of abscissa, axis point and inscribed radius, a quarter of an edge apart or a little less, from `inset` after
+// the start to `inset` before the end.
+void write_truth(const std::string& path, const Phantom& phantom, double inset) {
     const double length = phantom.truth.total_length();
-    const auto steps = static_cast<std::size_t>(std::ceil(4 * length / phantom.edge_length));
+    inset = std::min(inset, 0.25 * length);
+    const auto steps = static_cast<std::size_t>(std::ceil(4 * (length - 2 * inset) / phantom.edge_length));
     std::ofstream file(path);
     file << "abscissa\tx\ty\tz\tradius\n";
     for (std::size_t i = 0; i <= steps; ++i) {
-        const double s = length * (static_cast<double>(i) / static_cast<double>(steps));
+        const double s = inset + (length - 2 * inset) * (static_cast<double>(i) / static_cast<double>(steps));
         const Vec3 p = phantom.truth.position(s);
         file << exact_text(s) << '\t' << exact_text(p.x) << '\t' << exact_text(p.y) << '\t' << exact_text(p.z) << '\t'
              << exact_text(phantom.truth.inscribed_radius(s)) << '\n';
@@ -108,13 +112,16 @@ int run(const PhantomArguments& arguments, const std::vector<KindOption>& table)
     Phantom phantom;
     try {
         refuse_foreign_options(parse_kind(arguments.kind), table);
-        phantom = make_phantom(resolved(arguments));
+        phantom = arguments.voxels.size > 0 ? make_voxel_phantom(resolved(arguments), arguments.voxels)
+                                            : make_phantom(resolved(arguments));
     } catch (const std::invalid_argument& error) {
         fmt::print(stderr, "lumenline phantom: {}\n", error.what());
         return kUsage;
     }
     write_surface(arguments.output, phantom.points, phantom.triangles);
-    if (!arguments.truth.empty()) write_truth(arguments.truth, phantom);
+    // The ends of a sampled shape are staircases themselves: two voxels before them the axis is inside.
+    const double inset = arguments.voxels.size > 0 ? 2 * phantom.edge_length : 0;
+    if (!arguments.truth.empty()) write_truth(arguments.truth, phantom, inset);
     return kDone;
 }
 
@@ -212,6 +219,14 @@ void add_mesh_options(CLI::App& verb, PhantomArguments& arguments) {
     verb.add_option("--scale", o.scale, "Factor for all lengths")->capture_default_str();
     verb.add_option("--offset", arguments.offset, "Shift X,Y,Z after scaling");
     verb.add_flag("--float32", o.float32, "Round coordinates to float32");
+    CLI::Option* voxel = verb.add_option("--voxel", arguments.voxels.size,
+                                         "Sample the shape in voxels of this share of its least radius: a staircase "
+                                         "with closed ends")
+                             ->check(CLI::PositiveNumber);
+    for (const char* name : {"--points-around", "--jitter", "--noise", "--capped"})
+        voxel->excludes(verb.get_option(name));
+    verb.add_option("--smoothing", arguments.voxels.smoothing, "Passes of Taubin's smoothing over the staircase")
+        ->needs(voxel);
     verb.add_option("--truth", arguments.truth, "Write abscissa, axis point and inscribed radius to this TSV file");
 }
 
@@ -235,8 +250,10 @@ void add_phantom(CLI::App& app, std::function<int()>& action) {
         "  lumenline phantom helix -o coil.stl --turns 3 --pitch 15 --capped\n"
         "  lumenline phantom stenosis -o narrow.ply --severity 0.7 --width 4 --noise 0.05 --seed 7\n"
         "  lumenline phantom hairpin -o loop.obj --a 5 --bend-radius 5.2\n"
+        "  lumenline phantom torus -o stairs.ply --rotate --voxel 0.2 --smoothing 20 --truth stairs.tsv\n"
         "  lumenline phantom tree -o tree.ply --leaves 8 --truth tree_axes.tsv\n"
         "  lumenline phantom table --seeds 1 --rows 3/5-10\n"
+        "Of a sampled shape the first and the last row of the truth serve as inlet and outlet.\n"
         "Write a negative shift as --offset=-1,2,3. Options that a KIND does not use are refused.\n"
         "Exit status: 0 written, 1 a file could not be written, 2 usage error or impossible geometry.");
     verb->callback([arguments, table, verb, &action] {

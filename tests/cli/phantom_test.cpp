@@ -52,6 +52,24 @@ TEST(PhantomTree, TruthHoldsTheAxesOfAllBranches) {
     EXPECT_EQ(model.status, 0) << model.err;
 }
 
+TEST(PhantomVoxels, FirstAndLastRowOfTheTruthServeAsEndpoints) {
+    const auto folder = fresh_folder();
+    const Finished made = run_lumenline({"phantom", "cylinder", "--length", "30", "--rotate", "--voxel", "0.3",
+                                         "--smoothing", "10", "-o", "stairs.ply", "--truth", "a.tsv"},
+                                        folder);
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto lines = lines_of(read_text(folder / "a.tsv"));
+    ASSERT_GT(lines.size(), 3U);
+    const auto point = [](const std::string& row) {
+        const auto cells = cells_of(row);
+        return cells.at(1) + "," + cells.at(2) + "," + cells.at(3);
+    };
+    const Finished model = run_lumenline(
+        {"model", "stairs.ply", "-o", "stairs.hdf", "--inlet=" + point(lines[1]), "--outlet=" + point(lines.back())},
+        folder);
+    EXPECT_EQ(model.status, 0) << model.err;
+}
+
 TEST(PhantomTable, TsvHasAColumnForEveryFigureAndStaysTheSame) {
     const auto folder = fresh_folder();
     const std::vector<std::string> command{"phantom", "table", "--seeds", "2", "--rows", "5/5-10,3/5-10", "--tsv"};
