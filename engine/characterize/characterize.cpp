@@ -90,11 +90,14 @@ private:
         const Vec3 p = surface_.points[i];
         const double first = distance(p, complex_.vertices[at(pole)]);
         const double second = result_.centerline_distance[at(pole)];
+        // Where the trace dropped points, the path's chord is a little off the complex: the descent ends on the path.
+        const std::size_t k = end.foot.point;
+        const Vec3 foot = lerp(lines_.path.points[k], lines_.path.points[k + 1], end.foot.share);
         result_.geodesic_distance[i] = first + second;
-        result_.descent_length[i] = end.length;
-        result_.euclidean_distance[i] = distance(end.foot.x, p);
+        result_.descent_length[i] = end.length + distance(end.foot.x, foot);
+        result_.euclidean_distance[i] = distance(foot, p);
         result_.normalized_tangency_deviation[i] = second / (first + second);
-        result_.centerline_point[i] = end.foot.x;
+        result_.centerline_point[i] = foot;
         result_.centerline_id[i] = end.foot.line;
         result_.abscissa[i] = along(lines_.path.line_abscissa, end.foot);
         if (result_.zone[i] == SiteZone::kWall && in_end_zone(end.foot)) result_.zone[i] = SiteZone::kEndZone;
