@@ -68,6 +68,9 @@ std::size_t digest(const Fields& fields) {
     return sum;
 }
 std::size_t digest(const Centerlines& lines) { return bench::digest(lines.points) ^ bench::digest(lines.radius); }
+std::size_t digest(const SurfaceCharacter& c) {
+    return bench::digest(c.geodesic_distance) ^ bench::digest(c.geodesic_distance_refined) ^ bench::digest(c.abscissa);
+}
 std::size_t digest(const Solved& solved) { return digest(solved.lines); }
 
 Model prepare(const Input& input) {
@@ -77,6 +80,7 @@ Model prepare(const Input& input) {
     model.cells = inside_cells(model.surface, model.tetrahedra);
     model.merged = merge(model.surface, model.cells, input.options);
     model.solved = solve(model.surface, input.options);
+    model.solved.character = characterize(model.surface, model.solved);
     verify(input, model.solved);
     if (digest(polygons(model.surface, model.cells, model.merged)) != digest(model.solved.complex))
         throw std::runtime_error(input.name + ": the steps do not give the complex that the stage gives");
@@ -180,6 +184,10 @@ const NamedStage kStages[] = {
     {"trace",
      [](benchmark::State& state, const Input& input, const Model& m) {
          time_pairs(state, m, digest(m.solved.lines), [&] { return trace(m.surface, m.solved, input.options); });
+     }},
+    {"characterize",
+     [](benchmark::State& state, const Input&, const Model& m) {
+         time_pairs(state, m, digest(m.solved.character), [&] { return characterize(m.surface, m.solved); });
      }},
     {"whole",
      [](benchmark::State& state, const Input& input, const Model& m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/characterize/characterize.h"
 #include "engine/condition/condition.h"
 #include "engine/core/text.h"
 #include "engine/eikonal/eikonal.h"
@@ -58,6 +59,11 @@ Centerlines trace(const Surface& surface, const Solved& solved, const PipelineOp
     return trace_centerlines(surface, solved.complex, solved.endpoints, solved.fields, options.trace, context);
 }
 
+SurfaceCharacter characterize(const Surface& surface, const Solved& solved) {
+    StageContext context(Stage::kCharacterize);
+    return characterize_surface(surface, solved.complex, solved.endpoints, solved.lines, context);
+}
+
 Solved solve(const Surface& surface, const PipelineOptions& options) {
     Solved solved;
     solved.complex = voronoi(surface, options);
@@ -76,6 +82,9 @@ void verify(const Input& input, const Solved& solved) {
     for (const auto& field : solved.fields)
         if (!(field->residual <= kResidual))
             throw std::runtime_error(input.name + ": residual " + short_text(field->residual) + " of an arrival field");
+    if (static_cast<double>(solved.character.unreached) > 0.005 * static_cast<double>(solved.character.wall_sites))
+        throw std::runtime_error(input.name + ": " + counted(solved.character.unreached, "site") +
+                                 " of the wall without a centerline");
     if (input.truth) verify_axis(input, solved.lines);
 }
 

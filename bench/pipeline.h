@@ -8,6 +8,7 @@
 #include "engine/core/centerlines.h"
 #include "engine/core/endpoints.h"
 #include "engine/core/surface.h"
+#include "engine/core/surface_character.h"
 #include "engine/core/voronoi_complex.h"
 
 namespace lumenline::bench {
@@ -20,6 +21,7 @@ struct Solved {
     Endpoints endpoints;
     Fields fields;
     Centerlines lines;
+    SurfaceCharacter character;  ///< empty until characterize is called
 };
 
 /// The stages, one after the other in this thread, as the scheduler calls them.
@@ -28,6 +30,7 @@ VoronoiComplex voronoi(const Surface& surface, const PipelineOptions& options);
 Endpoints endpoints(const Surface& surface, const VoronoiComplex& complex, const PipelineOptions& options);
 Fields eikonal(const VoronoiComplex& complex, const Endpoints& ends);
 Centerlines trace(const Surface& surface, const Solved& solved, const PipelineOptions& options);
+SurfaceCharacter characterize(const Surface& surface, const Solved& solved);
 Solved solve(const Surface& surface, const PipelineOptions& options);
 
 /// Is the answer worth timing? Every outlet has its line, every field is at the fixed point of its

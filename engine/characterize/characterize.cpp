@@ -20,9 +20,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> march_from_paths(const VoronoiComplex& complex, const PathPieces& pieces,
+std::vector<double> march_from_paths(const VoronoiComplex& complex, const PathPieces& pieces, MarchWorkspace& work,
                                      const StageContext& context) {
-    MarchWorkspace work;
     PolygonMarch<UnitMetric> march(complex, work);
     for (const PolygonId p : pieces.polygons())
         for (const VoronoiVertexId v : complex.polygon(p))
@@ -44,7 +43,7 @@ public:
 
     SurfaceCharacter run() {
         const std::size_t n = surface_.site_count();
-        result_.centerline_distance = march_from_paths(complex_, pieces_, context_);
+        result_.centerline_distance = march_from_paths(complex_, pieces_, work_, context_);
         for (auto* values : {&result_.geodesic_distance, &result_.descent_length, &result_.euclidean_distance,
                              &result_.normalized_tangency_deviation, &result_.geodesic_distance_refined,
                              &result_.normalized_tangency_deviation_refined, &result_.abscissa})
@@ -53,7 +52,7 @@ public:
         result_.centerline_id.assign(n, {});
         result_.zone.resize(n);
         MedialBalls balls(surface_, complex_);
-        Descent descent(complex_, pieces_, result_.centerline_distance);
+        Descent descent(complex_, pieces_, work_.nodes);
         for (std::size_t i = 0; i < n; ++i) {
             if (i % 16384 == 0) context_.check_cancelled();
             result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;
@@ -139,6 +138,7 @@ private:
     const Centerlines& lines_;
     StageContext& context_;
     PathPieces pieces_;
+    MarchWorkspace work_;
     SurfaceCharacter result_;
 };
 

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry/edge_update.h"
-
 namespace lumenline {
 
 namespace {
@@ -19,8 +17,8 @@ constexpr std::uint32_t kUnknown = ~0U;
 
 }  // namespace
 
-Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const double> distance)
-    : complex_(complex), pieces_(pieces), time_(distance), known_(complex.vertex_count(), kUnknown) {}
+Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const TimedPoint> nodes)
+    : complex_(complex), pieces_(pieces), nodes_(nodes), known_(complex.vertex_count(), kUnknown) {}
 
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     if (pieces_.crosses(p)) {
@@ -30,30 +28,31 @@ void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     const auto loop = complex_.polygon(p);
     const ComplexPoint& place = here.place;
     const std::size_t n = loop.size();
+    const TimedPoint target{here.x, here.radius, here.time};
     for (std::size_t i = 0; i < n; ++i) {
         const VoronoiVertexId a = loop[i], b = loop[i + 1 == n ? 0 : i + 1];
-        const double ta = time_[at(a)], tb = time_[at(b)];
-        const Vec3 xa = complex_.vertices[at(a)];
+        const double ta = nodes_[at(a)].time, tb = nodes_[at(b)].time;
         const bool own_end = a == place.a || a == place.b;
         if (ta < here.time || (own_end && !place.is_vertex() && ta <= here.time)) {
-            const double value = ta + distance(here.x, xa);
+            const double value = ta + distance(here.x, nodes_[at(a)].x);
             if (value < best.value) best = {value, {a, a, 0}, {}};
         }
         if (n == 2 || !(std::min(ta, tb) < here.time) || !(std::max(ta, tb) < kInfinity)) continue;
         if (own_end && (b == place.a || b == place.b || place.is_vertex())) continue;
         if (place.is_vertex() && b == place.a) continue;
-        const Vec3 xb = complex_.vertices[at(b)];
-        const double t = planar_minimizer(xa, xb, here.x, ta, tb, 1);
-        const double tx = (1 - t) * ta + t * tb;
-        if (!(t > 0 && t < 1 && tx < here.time)) continue;
-        const double value = tx + distance(here.x, lerp(xa, xb, t));
-        if (value < best.value) best = {value, {a, b, t}, {}};
+        const TimedPoint &pa = nodes_[at(a)], &pb = nodes_[at(b)];
+        const UnitMetric::Edge edge(pa, pb);
+        const double value = edge.arrival(target);
+        if (!(value < best.value)) continue;
+        const double t = edge.start_of_ray(target);
+        if (t > 0 && t < 1 && (1 - t) * ta + t * tb < here.time) best = {value, {a, b, t}, {}};
     }
 }
 
 Descent::Here Descent::arrive(const ComplexPoint& place) const {
-    const double time =
-        place.is_vertex() ? time_[at(place.a)] : (1 - place.t) * time_[at(place.a)] + place.t * time_[at(place.b)];
+    const double time = place.is_vertex()
+                            ? nodes_[at(place.a)].time
+                            : (1 - place.t) * nodes_[at(place.a)].time + place.t * nodes_[at(place.b)].time;
     return {position(complex_, place), complex_.ball_radius[at(place.a)], time, place};
 }
 

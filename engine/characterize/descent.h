@@ -5,6 +5,7 @@
 
 #include "engine/characterize/path_pieces.h"
 #include "engine/core/voronoi_complex.h"
+#include "engine/geometry/polygon_march.h"
 
 namespace lumenline {
 
@@ -22,8 +23,8 @@ struct DescentEnd {
 /// descents that meet in a vertex are walked once.
 class Descent {
 public:
-    /// @param distance  T~ per vertex; both must outlive the descent
-    Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const double> distance);
+    /// @param nodes  vertices with T~, as the march leaves them; all must outlive the descent
+    Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const TimedPoint> nodes);
 
     /// @returns reached() is false where T~ is infinite
     /// @cost O(polygons crossed) up to the first vertex known from before
@@ -53,7 +54,7 @@ private:
 
     const VoronoiComplex& complex_;
     const PathPieces& pieces_;
-    std::span<const double> time_;
+    std::span<const TimedPoint> nodes_;
     std::vector<std::uint32_t> known_;  ///< per vertex, into ends_; kUnknown
     std::vector<DescentEnd> ends_;
 };

@@ -8,9 +8,6 @@
 // the ray leaves through one, and within the second order of the edge at the rim of a medial sheet.
 #include "engine/characterize/medial_ball.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "engine/geometry/nearest_on_polygon.h"
 
 namespace lumenline {
@@ -35,17 +32,28 @@ BallCentre MedialBalls::at_site(SiteId site) {
     const LocalShape shape = fit_.at_site(site);
     const Vec3 p = surface_.points[at(site)];
     double inverse = shape.curvature_max;
+    PolygonId exit = polygons.front();
     for (const PolygonId q : polygons) {
         const auto [s, t] = complex_.polygon_sites[at(q)];
         const SiteId other = s == site ? t : s;
         if (fit_.is_near(other)) continue;
         const Vec3 e = surface_.points[at(other)] - p;
-        inverse = std::max(inverse, 2 * dot(e, shape.inward) / squared_norm(e));
+        const double needed = 2 * dot(e, shape.inward) / squared_norm(e);
+        if (!(needed > inverse)) continue;
+        inverse = needed;
+        exit = q;
     }
     if (!(inverse > 0)) return best;
     const Vec3 x = p + (1 / inverse) * shape.inward;
-    double least = std::numeric_limits<double>::infinity();
+    best = {nearest_on_polygon(surface_, complex_, exit, x).point, exit};
+    double least = squared_norm(best.x - x);
     for (const PolygonId q : polygons) {
+        if (q == exit) continue;
+        // No point of a polygon is nearer than the plane it lies in, the bisector of its sites.
+        const auto [s, t] = complex_.polygon_sites[at(q)];
+        const Vec3 e = surface_.points[at(s == site ? t : s)] - p;
+        const double length2 = squared_norm(e), height = dot(x - p, e) - 0.5 * length2;
+        if (height * height >= least * length2) continue;
         const Vec3 y = nearest_on_polygon(surface_, complex_, q, x).point;
         if (const double d = squared_norm(y - x); d < least) {
             least = d;

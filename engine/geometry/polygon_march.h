@@ -57,6 +57,15 @@ struct UnitMetric {
             return a.time + (rise * along + run * height) / length2;
         }
 
+        /// Where on the edge the ray starts, 0 to 1, if inside.
+        [[nodiscard]] double start_of_ray(const TimedPoint& w) const {
+            const Vec3 q = w.x - a.x;
+            const double along = dot(q, e);
+            const double squared = squared_norm(q) * length2 - along * along;
+            const double height = squared > 0 ? std::sqrt(squared) : 0.0;
+            return (along * run - height * rise) / (length2 * run);
+        }
+
         const TimedPoint& a;
         Vec3 e;
         double length2, rise, run;

@@ -116,8 +116,7 @@ NaivePoint naive_nearest(const Centerlines& lines, Vec3 x) {
     return best;
 }
 
-bool leaves_lumen(const Surface& surface, Vec3 a, Vec3 b) {
-    const InsideTest inside(surface.points, surface.triangles);
+bool leaves_lumen(const InsideTest& inside, Vec3 a, Vec3 b) {
     for (int k = 5; k < 100; ++k)
         if (!inside.inside(lerp(a, b, k / 100.0))) return true;
     return false;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/model_record.h"
+#include "engine/geometry/inside_test.h"
 
 namespace lumenline::test {
 
@@ -24,6 +25,6 @@ struct NaivePoint {
 NaivePoint naive_nearest(const Centerlines& lines, Vec3 x);
 
 /// Does the straight segment from the wall's point a to b leave the lumen? Looked at in a hundred places.
-bool leaves_lumen(const Surface& surface, Vec3 a, Vec3 b);
+bool leaves_lumen(const InsideTest& inside, Vec3 a, Vec3 b);
 
 }  // namespace lumenline::test
