@@ -23,7 +23,7 @@ Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::s
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     if (pieces_.crosses(p)) {
         const PathFoot foot = pieces_.nearest(p, here.x, here.radius);
-        if (foot.distance <= best.value) best = {foot.distance, {}, foot};
+        if (foot.distance <= best.value) best = {foot.distance, {}, foot, p};
     }
     const auto loop = complex_.polygon(p);
     const ComplexPoint& place = here.place;
@@ -35,7 +35,7 @@ void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
         const bool own_end = a == place.a || a == place.b;
         if (ta < here.time || (own_end && !place.is_vertex() && ta <= here.time)) {
             const double value = ta + distance(here.x, nodes_[at(a)].x);
-            if (value < best.value) best = {value, {a, a, 0}, {}};
+            if (value < best.value) best = {value, {a, a, 0}, {}, p};
         }
         if (n == 2 || !(std::min(ta, tb) < here.time) || !(std::max(ta, tb) < kInfinity)) continue;
         if (own_end && (b == place.a || b == place.b || place.is_vertex())) continue;
@@ -45,7 +45,7 @@ void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
         const double value = edge.arrival(target);
         if (!(value < best.value)) continue;
         const double t = edge.start_of_ray(target);
-        if (t > 0 && t < 1 && (1 - t) * ta + t * tb < here.time) best = {value, {a, b, t}, {}};
+        if (t > 0 && t < 1 && (1 - t) * ta + t * tb < here.time) best = {value, {a, b, t}, {}, p};
     }
 }
 
@@ -53,16 +53,19 @@ Descent::Here Descent::arrive(const ComplexPoint& place) const {
     const double time = place.is_vertex()
                             ? nodes_[at(place.a)].time
                             : (1 - place.t) * nodes_[at(place.a)].time + place.t * nodes_[at(place.b)].time;
-    return {position(complex_, place), complex_.ball_radius[at(place.a)], time, place};
+    return {position(complex_, place), complex_.ball_radius[at(place.a)], time, place, {}};
 }
 
 Descent::Step Descent::best_step(const Here& here) const {
-    Step best{kInfinity, {}, {}};
+    Step best{kInfinity, {}, {}, {}};
     for (const PolygonId p : complex_.polygons_of(here.place.a)) {
+        if (p == here.through) continue;
         const auto loop = complex_.polygon(p);
         if (here.place.is_vertex() || std::find(loop.begin(), loop.end(), here.place.b) != loop.end())
             try_polygon(p, here, best);
     }
+    // Back into the polygon just crossed: a point there would have been better from the start, up to the linear T~.
+    if (!(best.value < kInfinity) && !here.through.is_none()) try_polygon(here.through, here, best);
     return best;
 }
 
@@ -77,10 +80,11 @@ DescentEnd Descent::from(VoronoiVertexId v) {
     while (known_[at(v)] == kUnknown) {
         stack.push_back({v, 0});
         Here here = arrive({v, v, 0});
-        Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}};
+        Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}, {}};
         double& length = stack.back().length;
         while (step.value < kInfinity && !step.place.a.is_none() && !step.place.is_vertex()) {
-            const Here next = arrive(step.place);
+            Here next = arrive(step.place);
+            next.through = step.through;
             length += distance(here.x, next.x);
             here = next;
             step = best_step(here);
@@ -105,8 +109,8 @@ DescentEnd Descent::from(VoronoiVertexId v) {
 }
 
 double Descent::distance_at(PolygonId p, Vec3 x, double radius) const {
-    Step best{kInfinity, {}, {}};
-    try_polygon(p, {x, radius, kInfinity, {}}, best);
+    Step best{kInfinity, {}, {}, {}};
+    try_polygon(p, {x, radius, kInfinity, {}, {}}, best);
     return best.value;
 }
 

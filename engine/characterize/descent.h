@@ -39,6 +39,7 @@ private:
         double value;        ///< T~ there plus the distance to it
         ComplexPoint place;  ///< none where `foot` is the next point
         PathFoot foot;       ///< on a path
+        PolygonId through;   ///< the polygon on the way
     };
     /// A point of a descent.
     struct Here {
@@ -46,6 +47,7 @@ private:
         double radius = 0;
         double time;         ///< T~
         ComplexPoint place;  ///< none = inside a polygon
+        PolygonId through{};  ///< the polygon that was crossed to get here
     };
 
     void try_polygon(PolygonId p, const Here& here, Step& best) const;
