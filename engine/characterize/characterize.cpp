@@ -52,7 +52,7 @@ public:
         result_.centerline_id.assign(n, {});
         result_.zone.resize(n);
         MedialBalls balls(surface_, complex_);
-        Descent descent(complex_, pieces_, work_.nodes);
+        Descent descent(complex_, pieces_, lines_.path, work_.nodes);
         for (std::size_t i = 0; i < n; ++i) {
             if (i % 16384 == 0) context_.check_cancelled();
             result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;

@@ -1,7 +1,9 @@
 // T~ falls from point to point, so a descent ends: an edge's inside is left for a lower point or for the lower of its
 // own ends, which may be as high as it; a vertex always has a lower point, the one that its time came from.
-// A descent that comes to a vertex goes on as the descent from there: the stack of vertices that wait for each other
-// unwinds from the path upwards.
+// A descent that comes to a vertex goes on as the descent from there. One that comes to an edge whose two ends, both
+// lower than its start, descend to nearby places of one line goes on between their descents, in proportion: its length,
+// interpolated, bounds that of a line between their ends. Walking every descent to the end would cost as many steps as
+// there are polygons on the way, which grows with the mesh.
 #include "engine/characterize/descent.h"
 
 #include <algorithm>
@@ -14,11 +16,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kUnknown = ~0U;
+constexpr double kTogether = 2;  // edge lengths between two descents that go on as one
 
 }  // namespace
 
-Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const TimedPoint> nodes)
-    : complex_(complex), pieces_(pieces), nodes_(nodes), known_(complex.vertex_count(), kUnknown) {}
+Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, const PathLines& path,
+                 std::span<const TimedPoint> nodes)
+    : complex_(complex), pieces_(pieces), path_(path), nodes_(nodes), known_(complex.vertex_count(), kUnknown) {}
 
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     if (pieces_.crosses(p)) {
@@ -69,43 +73,82 @@ Descent::Step Descent::best_step(const Here& here) const {
     return best;
 }
 
-DescentEnd Descent::from(VoronoiVertexId v) {
-    /// A vertex and how far it is, along the descent, to the next one of the stack.
-    struct Waiting {
-        VoronoiVertexId vertex;
-        double length;
+bool Descent::joined(const ComplexPoint& place, DescentEnd& end) const {
+    const DescentEnd &a = ends_[known_[at(place.a)]], &b = ends_[known_[at(place.b)]];
+    if (!a.reached() || a.foot.line != b.foot.line) return false;
+    const auto along = [&](const PathFoot& foot) {
+        const double from = path_.abscissa[foot.point];
+        return from + foot.share * (path_.abscissa[foot.point + 1] - from);
     };
-    std::vector<Waiting> stack;
-    DescentEnd end;
-    while (known_[at(v)] == kUnknown) {
-        stack.push_back({v, 0});
-        Here here = arrive({v, v, 0});
-        Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}, {}};
-        double& length = stack.back().length;
-        while (step.value < kInfinity && !step.place.a.is_none() && !step.place.is_vertex()) {
-            Here next = arrive(step.place);
-            next.through = step.through;
-            length += distance(here.x, next.x);
-            here = next;
-            step = best_step(here);
+    const double sa = along(a.foot), sb = along(b.foot);
+    if (std::fabs(sa - sb) > kTogether * distance(nodes_[at(place.a)].x, nodes_[at(place.b)].x)) return false;
+    const double s = (1 - place.t) * sa + place.t * sb;
+    std::uint32_t k = a.foot.point;
+    const std::uint32_t last = b.foot.point;
+    while (k < last && path_.abscissa[k + 1] < s) ++k;
+    while (k > last && path_.abscissa[k] > s) --k;
+    const double step = path_.abscissa[k + 1] - path_.abscissa[k];
+    end.foot = a.foot;
+    end.foot.point = k;
+    end.foot.share = step > 0 ? std::clamp((s - path_.abscissa[k]) / step, 0.0, 1.0) : 0.0;
+    end.foot.x = lerp(path_.points[k], path_.points[k + 1], end.foot.share);
+    end.length =
+        (1 - place.t) * a.length + place.t * b.length + distance(end.foot.x, lerp(a.foot.x, b.foot.x, place.t));
+    return true;
+}
+
+bool Descent::walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, DescentEnd& end) const {
+    Here here = arrive({v, v, 0});
+    double length = 0;
+    const auto need = [&](VoronoiVertexId w) {
+        if (known_[at(w)] == kUnknown) needed.push_back(w);
+    };
+    for (;;) {
+        const Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}, {}};
+        if (step.place.a.is_none()) {
+            end = {step.foot, step.foot.line.is_none() ? 0 : length + step.foot.distance};
+            return true;
         }
-        if (!step.place.a.is_none()) {
-            length += distance(here.x, complex_.vertices[at(step.place.a)]);
-            v = step.place.a;
-            continue;
+        Here next = arrive(step.place);
+        next.through = step.through;
+        length += distance(here.x, next.x);
+        if (step.place.is_vertex()) {
+            need(step.place.a);
+            if (!needed.empty()) return false;
+            end = ends_[known_[at(step.place.a)]];
+            end.length += length;
+            return true;
         }
-        end.foot = step.foot;
-        end.length = end.reached() ? step.foot.distance : 0;
-        break;
+        if (std::max(nodes_[at(step.place.a)].time, nodes_[at(step.place.b)].time) < nodes_[at(v)].time) {
+            need(step.place.a);
+            need(step.place.b);
+            if (!needed.empty()) return false;
+            if (joined(step.place, end)) {
+                end.length += length;
+                return true;
+            }
+        }
+        here = next;
     }
-    if (known_[at(v)] != kUnknown) end = ends_[known_[at(v)]];
-    const VoronoiVertexId first = stack.empty() ? v : stack.front().vertex;
-    for (; !stack.empty(); stack.pop_back()) {
-        end.length += stack.back().length;
-        known_[at(stack.back().vertex)] = static_cast<std::uint32_t>(ends_.size());
-        ends_.push_back(end);
+}
+
+DescentEnd Descent::from(VoronoiVertexId v) {
+    std::vector<VoronoiVertexId> stack{v}, needed;
+    while (!stack.empty()) {
+        const VoronoiVertexId top = stack.back();
+        DescentEnd end;
+        needed.clear();
+        if (known_[at(top)] != kUnknown) {
+            stack.pop_back();
+        } else if (walk(top, needed, end)) {
+            known_[at(top)] = static_cast<std::uint32_t>(ends_.size());
+            ends_.push_back(end);
+            stack.pop_back();
+        } else {
+            stack.insert(stack.end(), needed.begin(), needed.end());
+        }
     }
-    return ends_[known_[at(first)]];
+    return ends_[known_[at(v)]];
 }
 
 double Descent::distance_at(PolygonId p, Vec3 x, double radius) const {

@@ -24,7 +24,8 @@ struct DescentEnd {
 class Descent {
 public:
     /// @param nodes  vertices with T~, as the march leaves them; all must outlive the descent
-    Descent(const VoronoiComplex& complex, const PathPieces& pieces, std::span<const TimedPoint> nodes);
+    Descent(const VoronoiComplex& complex, const PathPieces& pieces, const PathLines& path,
+            std::span<const TimedPoint> nodes);
 
     /// @returns reached() is false where T~ is infinite
     /// @cost O(polygons crossed) up to the first vertex known from before
@@ -45,17 +46,22 @@ private:
     struct Here {
         Vec3 x;
         double radius = 0;
-        double time;         ///< T~
-        ComplexPoint place;  ///< none = inside a polygon
+        double time;          ///< T~
+        ComplexPoint place;   ///< none = inside a polygon
         PolygonId through{};  ///< the polygon that was crossed to get here
     };
 
     void try_polygon(PolygonId p, const Here& here, Step& best) const;
     [[nodiscard]] Here arrive(const ComplexPoint& place) const;
     Step best_step(const Here& here) const;
+    /// Descends from v until known descents take over; false where `needed` have to be known first.
+    bool walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, DescentEnd& end) const;
+    /// Continues from a point of an edge between the descents of its ends; false where they part.
+    bool joined(const ComplexPoint& place, DescentEnd& end) const;
 
     const VoronoiComplex& complex_;
     const PathPieces& pieces_;
+    const PathLines& path_;
     std::span<const TimedPoint> nodes_;
     std::vector<std::uint32_t> known_;  ///< per vertex, into ends_; kUnknown
     std::vector<DescentEnd> ends_;
