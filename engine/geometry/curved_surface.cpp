@@ -11,8 +11,8 @@ namespace lumenline {
 namespace {
 
 constexpr int kMaxSteps = 8;
-constexpr double kConverged = 1e-3;    // of the edge: the last step; it enters the distance squared
-constexpr double kLeastStretch = 0.1;  // of 1 - curvature x distance: below it, near a focal point, any foot will do
+constexpr double kConverged = 1e-5;    // of the edge: the last step; slopes of the distance need it, distances less
+constexpr double kLeastStretch = 0.5;  // of 1 - curvature x distance: below it, near a focal point, any foot will do
 constexpr double kFlatCap = 0.9;       // cosine between a cap's facets and the opening's normal
 
 /// Eigenvalues and eigenvectors of a symmetric matrix in the basis (u, v).

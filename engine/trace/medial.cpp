@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -19,32 +20,88 @@ namespace lumenline {
 
 namespace {
 
-constexpr double kEdgesPerStep = 0.5;
-constexpr double kLeastStep = 0.05, kLargestStep = 0.2;  // of the radius
+constexpr double kEdgesPerStep = 1;
+constexpr double kLeastStep = 0.1, kLargestStep = 0.25;  // of the radius
 constexpr double kWindow = 0.5;                          // of the radius: half the chord that gives a tangent
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
-constexpr int kRounds = 8;
+constexpr int kRounds = 10;
 constexpr int kMostPieces = 4;        // of a segment
 constexpr int kSearchRounds = 2;      // of them with searches in all directions
 constexpr std::size_t kStagger = 3;   // nodes in turn look in directions turned by this part of the angle between two
+constexpr std::size_t kShared = 2;    // nodes on either side whose places bound a node's ball too
 constexpr double kRelevant = 3;       // reaches beyond the nearest place: farther ones cannot come to bear
+constexpr std::size_t kHalo = 16;     // nodes on either side of one that moved which are solved for again
+constexpr double kSame = 0.02;        // of the radius: paths no farther apart are one
+constexpr std::size_t kContext = 3;   // nodes of a stretch taken over that stay in view
+constexpr std::size_t kParting = 2;   // nodes before the parting that are refined anew
+constexpr double kClearlyNearer = 3;  // of the wall's uncertainty
+constexpr double kResolution = 2e-5;  // of the radius: how well nodes are found on a wall without error
 constexpr double kLeastReach = 1e-4;  // of the radius
 constexpr double kLeastStretch = 1e-3;
-constexpr double kAccuracy = 1e-10;
+constexpr double kAccuracy = 1e-10, kRoughAccuracy = 1e-5;  // of the radius: of the finest and the roughest solution
+// No node needs to be found much better than the wall is known:
+constexpr double kAccuracyShare = 5e-4;  // of the wall's uncertainty, for the solution of one round
+constexpr double kRestShare = 5e-3;      // of the wall's uncertainty, for the rounds' end
+// Where balls touch all around, the nearest of many uncertain places is nearer than each is expected to be; where they
+// touch on two sides, their uncertainties pull the node along the sheet, farther than they lie apart.
+constexpr double kCrowding = 0.5, kSlackness = 1.5;
 constexpr double kRest = 2e-6;  // of the radius: moves below it end the rounds
 
 }  // namespace
+
+void MedialRefiner::take_over(const Polyline& path) {
+    shared_with_ = nullptr;
+    shared_nodes_ = 0;
+    std::size_t most = 0;
+    for (const Finished& f : finished_) {
+        if (f.path.points.front() != path.points.front()) continue;
+        // Both start at the same place: they are compared at equal arc lengths.
+        std::size_t count = 0, segment = 0;
+        for (const Node& node : f.nodes) {
+            const double s = node.path_abscissa;
+            while (segment + 2 < path.size() && path.abscissa[segment + 1] < s) ++segment;
+            const double length = path.abscissa[segment + 1] - path.abscissa[segment];
+            const double t = length > 0 ? (s - path.abscissa[segment]) / length : 0.0;
+            if (t > 1 || distance(lerp(path.points[segment], path.points[segment + 1], t), node.start) >
+                             kSame * node.path_radius)
+                break;
+            ++count;
+        }
+        if (count > most) {
+            most = count;
+            shared_with_ = &f;
+        }
+    }
+    nodes_.clear();
+    problem_.nodes.clear();
+    // The last nodes before the parting are refined anew; those before them stay as they are.
+    if (shared_with_ == nullptr || most <= kContext + kParting || most == shared_with_->nodes.size()) {
+        shared_with_ = nullptr;
+        return;
+    }
+    const std::size_t kept = most - kParting;
+    shared_nodes_ = kept - kContext;
+    for (std::size_t i = shared_nodes_; i < kept; ++i) {
+        nodes_.push_back(shared_with_->nodes[i]);
+        nodes_.back().frozen = true;
+        nodes_.back().reach = nodes_.back().moved = 0;
+        problem_.nodes.push_back(shared_with_->ridge[i]);
+        problem_.nodes.back().reach = 0;
+    }
+}
 
 void MedialRefiner::resample(const Polyline& path, const LineEnd& start, const LineEnd& end) {
     const Surface& surface = curved_.surface();
     const TriangleId first(std::size_t{0});
     const Vec3 somewhere = surface.points[at(surface.triangles[0][0])];
-    nodes_.clear();
-    problem_.nodes.clear();
     std::size_t segment = 0;
     const double whole = path.abscissa.back();
-    for (double s = 0;;) {
+    const std::size_t taken = nodes_.size();
+    const auto step_at = [&](double radius) {
+        return std::clamp(kEdgesPerStep * surface.median_edge, kLeastStep * radius, kLargestStep * radius);
+    };
+    for (double s = taken > 0 ? nodes_.back().path_abscissa + step_at(nodes_.back().radius) : 0;;) {
         while (segment + 2 < path.size() && path.abscissa[segment + 1] < s) ++segment;
         const double length = path.abscissa[segment + 1] - path.abscissa[segment];
         const double t = length > 0 ? std::clamp((s - path.abscissa[segment]) / length, 0.0, 1.0) : 0.0;
@@ -66,7 +123,7 @@ void MedialRefiner::resample(const Polyline& path, const LineEnd& start, const L
         if (!(step > 0)) break;
         s = s + 1.5 * step < whole ? s + step : whole;
     }
-    if (!start.free) nodes_.front().reach = 0;
+    if (!start.free || taken > 0) nodes_.front().reach = 0;
     if (!end.free) nodes_.back().reach = 0;
 }
 
@@ -84,7 +141,7 @@ void MedialRefiner::make_sections(const LineEnd& start, const LineEnd& end) {
         while (ahead + 1 < n && s[ahead] < s[i] + window) ++ahead;
         nodes_[i].tangent = normalized(problem_.nodes[ahead].position - problem_.nodes[back].position);
     }
-    if (start.free) nodes_.front().tangent = start.direction;
+    if (start.free && shared_nodes_ == 0) nodes_.front().tangent = start.direction;
     if (end.free) nodes_.back().tangent = end.direction;
     Vec3 axis = any_perpendicular(nodes_.front().tangent);
     for (std::size_t i = 0; i < n; ++i) {
@@ -128,10 +185,6 @@ void MedialRefiner::find_own_feet(std::size_t i) {
     const Vec3 x = problem_.nodes[i].position;
     node.before.insert(node.before.end(), node.own.begin(), node.own.end());
     node.own.clear();
-    const SurfaceDistance::Nearest wall = curved_.flat().nearest(x, node.flat, node.triangle);
-    node.flat = wall.point;
-    node.triangle = wall.triangle;
-    node.own.push_back(curved_.foot(x, wall.point, wall.triangle));
     std::array<double, kDirections> d{};
     for (std::size_t k = 0; k < kDirections; ++k) d[k] = distance(x, node.around[k].foot.point);
     const double relevant = *std::min_element(d.begin(), d.end()) + kRelevant * node.reach;
@@ -140,12 +193,27 @@ void MedialRefiner::find_own_feet(std::size_t i) {
             continue;
         node.own.push_back(curved_.foot(x, node.around[k].foot.point, node.around[k].foot.triangle));
     }
+    double sum2 = 0, least = std::numeric_limits<double>::infinity();
+    for (const SurfaceFoot& f : node.own) {
+        const double u = curved_.uncertainty(f);
+        sum2 += u * u;
+        least = std::min(least, distance(x, f.point));
+    }
+    node.uncertainty = std::sqrt(sum2 / static_cast<double>(node.own.size()));
+    // What no direction of the section found. On an axis many places are nearest but for the wall's uncertainty, and
+    // rounding chooses one of them: it must not count.
+    const SurfaceDistance::Nearest wall = curved_.flat().nearest(x, node.flat, node.triangle);
+    node.flat = wall.point;
+    node.triangle = wall.triangle;
+    const SurfaceFoot nearest = curved_.foot(x, wall.point, wall.triangle);
+    if (distance(x, nearest.point) < least - kClearlyNearer * node.uncertainty) node.own.push_back(nearest);
 }
 
 void MedialRefiner::find_places(int round) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (nodes_[i].frozen) continue;
         if (round < kSearchRounds) find_around(i, round == 0);
-        if (round < kSearchRounds || nodes_[i].moved > kRest * nodes_[i].radius) find_own_feet(i);
+        if (round < kSearchRounds || nodes_[i].moved > rest_ * nodes_[i].radius) find_own_feet(i);
     }
 }
 
@@ -178,15 +246,26 @@ void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, b
     problem_.bounds.push_back(bound);
 }
 
-void MedialRefiner::set_bounds(bool disturbed) {
+void MedialRefiner::set_bounds(bool all, std::size_t shared) {
     problem_.bounds.clear();
-    for (std::size_t i = 0; i < nodes_.size(); ++i) set_bounds(i, disturbed);
+    std::size_t awake_until = 0;  // nodes beside one that moved
+    std::size_t ahead = 0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        for (; ahead < nodes_.size() && ahead <= i + kHalo; ++ahead)
+            if (nodes_[ahead].moved > rest_ * nodes_[ahead].radius) awake_until = ahead + kHalo + 1;
+        set_bounds(i, shared, all);
+        if (!all && shared > 0 && i >= awake_until) {
+            problem_.nodes[i].reach = 0;
+            problem_.bounds.resize(problem_.nodes[i].first);
+            problem_.nodes[i].last = problem_.nodes[i].first;
+        }
+    }
 }
 
-void MedialRefiner::set_bounds(std::size_t i, bool disturbed) {
+void MedialRefiner::set_bounds(std::size_t i, std::size_t shared, bool disturbed) {
     Node& node = nodes_[i];
     RidgeNode& ridge = problem_.nodes[i];
-    const std::size_t first = i > 0 ? i - 1 : i, last = std::min(i + 1, nodes_.size() - 1);
+    const std::size_t first = i < shared ? 0 : i - shared, last = std::min(i + shared, nodes_.size() - 1);
     double least = std::numeric_limits<double>::infinity();
     const auto offer = [&](const SurfaceFoot& f) { least = std::min(least, distance(ridge.position, f.point)); };
     for (std::size_t j = first; j <= last; ++j) {
@@ -195,8 +274,10 @@ void MedialRefiner::set_bounds(std::size_t i, bool disturbed) {
     }
     for (const SurfaceFoot& f : node.before) offer(f);
     node.radius = ridge.radius = least;
-    ridge.reach = node.reach;
+    ridge.reach = node.frozen ? 0 : node.reach;
     ridge.first = static_cast<std::uint32_t>(problem_.bounds.size());
+    ridge.last = ridge.first;
+    if (ridge.reach <= 0) return;
     const double relevant = least + kRelevant * node.reach;
     const auto add = [&](const SurfaceFoot& f, bool curved) {
         if (distance(ridge.position, f.point) <= relevant) add_bound(ridge, f, curved, disturbed);
@@ -215,6 +296,7 @@ double MedialRefiner::move_nodes() {
     double largest = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         RidgeNode& ridge = problem_.nodes[i];
+        nodes_[i].moved = 0;
         if (ridge.reach <= 0) continue;
         ridge.position += ridge.move[0] * ridge.axes[0] + ridge.move[1] * ridge.axes[1];
         nodes_[i].moved = std::hypot(ridge.move[0], ridge.move[1]);
@@ -235,54 +317,92 @@ double MedialRefiner::cost() const {
 RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, const LineEnd& end) {
     RefinedLine result;
     if (path.size() < 2) return result;
+    take_over(path);
     resample(path, start, end);
     if (nodes_.size() < 3) return result;
     for (int round = 0; round < kRounds; ++round) {
         if (round < kSearchRounds) make_sections(start, end);
         find_places(round);
-        set_bounds(false);
-        if (round == 0) result.cost_before = cost();
-        if (!solve_ridge(problem_, kAccuracy, false)) break;
-        if (move_nodes() < kRest) break;
+        set_bounds(false, round < kSearchRounds ? 0 : kShared);
+        if (round == 0) {
+            result.cost_before = cost();
+            const double noise = noise_level();
+            accuracy_ = std::clamp(kAccuracyShare * noise, kAccuracy, kRoughAccuracy);
+            rest_ = std::max(kRestShare * noise, kRest);
+        }
+        if (!solve_ridge(problem_, round == 0 ? kRoughAccuracy : accuracy_, false)) break;
+        if (move_nodes() < rest_) break;
     }
     find_places(kRounds);
-    set_bounds(true);
+    set_bounds(true, kShared);
     result.cost_after = cost();
     estimate_errors();
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         result.largest_stray = std::max(result.largest_stray,
                                         distance(problem_.nodes[i].position, nodes_[i].start) / nodes_[i].path_radius);
-        if (i > 0) append_between(i - 1, result);
-        append(problem_.nodes[i].position, nodes_[i].radius, i, 0, result);
+        if (!nodes_[i].frozen || i + 1 < nodes_.size()) find_middle(i);
     }
+    Finished line{path, {}, {}};
+    if (shared_with_ != nullptr) {
+        line.ridge.assign(shared_with_->ridge.begin(),
+                          shared_with_->ridge.begin() + static_cast<std::ptrdiff_t>(shared_nodes_));
+        line.nodes.assign(shared_with_->nodes.begin(),
+                          shared_with_->nodes.begin() + static_cast<std::ptrdiff_t>(shared_nodes_));
+    }
+    line.ridge.insert(line.ridge.end(), problem_.nodes.begin(), problem_.nodes.end());
+    std::move(nodes_.begin(), nodes_.end(), std::back_inserter(line.nodes));
+    for (std::size_t i = 0; i < line.nodes.size(); ++i)
+        append(line.ridge[i], line.nodes[i], i + 1 < line.nodes.size() ? &line.nodes[i + 1] : nullptr, result);
+    finished_.push_back(std::move(line));
     return result;
 }
 
 void MedialRefiner::estimate_errors() {
-    solve_ridge(problem_, kAccuracy, true);
+    solve_ridge(problem_, accuracy_, true);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         Node& node = nodes_[i];
+        if (node.frozen) continue;
         const RidgeNode& ridge = problem_.nodes[i];
-        double sum2 = 0;
-        for (const SurfaceFoot& f : node.own) {
-            const double u = curved_.uncertainty(f);
-            sum2 += u * u / static_cast<double>(node.own.size());
-        }
-        node.uncertainty = std::sqrt(sum2);
-        node.radius_error = std::hypot(ridge.radius_response, node.uncertainty);
-        node.position_error = ridge.move_response;
+        const double sheet = sheet_likeness(i), sheet2 = sheet * sheet;
+        node.radius_error = std::hypot(ridge.radius_response, node.uncertainty) * (1 + kCrowding * (1 - sheet2));
+        node.position_error = ridge.move_response * (1 + kSlackness * sheet2) + kResolution * node.radius;
     }
 }
 
-void MedialRefiner::append(Vec3 x, double radius, std::size_t i, double share, RefinedLine& result) const {
-    const std::size_t j = share > 0 ? i + 1 : i;
-    result.line.append(x, radius);
-    result.path_abscissa.push_back(std::lerp(nodes_[i].path_abscissa, nodes_[j].path_abscissa, share));
-    result.radius_error.push_back(std::lerp(nodes_[i].radius_error, nodes_[j].radius_error, share));
-    result.position_error.push_back(std::lerp(nodes_[i].position_error, nodes_[j].position_error, share));
+double MedialRefiner::noise_level() const {
+    std::vector<double> levels;
+    for (const Node& node : nodes_)
+        if (!node.frozen) levels.push_back(node.uncertainty / node.radius);
+    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+    std::nth_element(levels.begin(), middle, levels.end());
+    return *middle;
 }
 
-void MedialRefiner::append_between(std::size_t i, RefinedLine& result) {
+double MedialRefiner::sheet_likeness(std::size_t i) const {
+    const RidgeNode& ridge = problem_.nodes[i];
+    double a = 0, b = 0, c = 0;
+    for (std::uint32_t k = ridge.first; k < ridge.last; ++k) {
+        const auto& g = problem_.bounds[k].gradient;
+        a += problem_.pressure[k] * g[0] * g[0];
+        b += problem_.pressure[k] * g[0] * g[1];
+        c += problem_.pressure[k] * g[1] * g[1];
+    }
+    return a + c > 0 ? std::hypot(a - c, 2 * b) / (a + c) : 0.0;
+}
+
+void MedialRefiner::append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const {
+    result.line.append(ridge.position, node.radius);
+    result.path_abscissa.push_back(node.path_abscissa);
+    result.radius_error.push_back(node.radius_error);
+    result.position_error.push_back(node.position_error);
+    if (next == nullptr || node.middle_radius <= 0) return;
+    result.line.append(node.middle, node.middle_radius);
+    result.path_abscissa.push_back(0.5 * (node.path_abscissa + next->path_abscissa));
+    result.radius_error.push_back(0.5 * (node.radius_error + next->radius_error));
+    result.position_error.push_back(0.5 * (node.position_error + next->position_error));
+}
+
+void MedialRefiner::find_middle(std::size_t i) {
     if (i == 0 || i + 2 >= nodes_.size()) return;
     const auto at_node = [this](std::size_t k) { return problem_.nodes[k].position; };
     const Vec3 a = at_node(i - 1), b = at_node(i), c = at_node(i + 1), d = at_node(i + 2);
@@ -305,7 +425,8 @@ void MedialRefiner::append_between(std::size_t i, RefinedLine& result) {
         for (const Contact& contact : nodes_[node].around) offer(contact.foot);
     }
     const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
-    append(x, std::min(r, least), i, 0.5, result);
+    nodes_[i].middle = x;
+    nodes_[i].middle_radius = std::min(r, least);
 }
 
 }  // namespace lumenline

@@ -33,6 +33,7 @@ public:
 
     /// The line of least cost near a path: nodes resampled along the path at half an edge's distance,
     /// moved in their sections until the cost, with distances to the curved surface, is least.
+    /// Where it begins like an earlier one, up to a share of the radius, it takes over what was refined then.
     /// @returns a line without points where the path is too short or no step could be made
     [[nodiscard]] RefinedLine refine(const Polyline& path, const LineEnd& start, const LineEnd& end);
 
@@ -52,6 +53,9 @@ private:
         double radius = 0;  ///< distance to the nearest place known [length]
         double reach = 0;
         double moved = 0;                 ///< in the last round [length]
+        bool frozen = false;              ///< of a stretch refined with an earlier line
+        Vec3 middle;                      ///< of the curve from it to the next node
+        double middle_radius = 0;         ///< there; 0 = none [length]
         std::vector<Contact> around;      ///< one per direction
         std::vector<SurfaceFoot> own;     ///< its own feet
         std::vector<SurfaceFoot> before;  ///< those of earlier rounds
@@ -60,23 +64,38 @@ private:
         double uncertainty = 0, radius_error = 0, position_error = 0;  ///< [length]
     };
 
+    /// A line refined before.
+    struct Finished {
+        Polyline path;
+        std::vector<RidgeNode> ridge;
+        std::vector<Node> nodes;
+    };
+
+    /// Takes over what an earlier line has refined of the path's beginning.
+    void take_over(const Polyline& path);
     void resample(const Polyline& path, const LineEnd& start, const LineEnd& end);
     void make_sections(const LineEnd& start, const LineEnd& end);
     void find_around(std::size_t node, bool search);
     void find_own_feet(std::size_t node);
     void find_places(int round);
-    void set_bounds(bool disturbed);
-    void set_bounds(std::size_t node, bool disturbed);
+    void set_bounds(bool all, std::size_t shared);
+    void set_bounds(std::size_t node, std::size_t shared, bool disturbed);
     void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved, bool disturbed);
     double move_nodes();
     void estimate_errors();
+    [[nodiscard]] double noise_level() const;
+    [[nodiscard]] double sheet_likeness(std::size_t node) const;
     [[nodiscard]] double cost() const;
-    void append_between(std::size_t node, RefinedLine& result);
-    void append(Vec3 x, double radius, std::size_t node, double share, RefinedLine& result) const;
+    void find_middle(std::size_t node);
+    void append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const;
 
     CurvedSurface curved_;
     RidgeProblem problem_;
     std::vector<Node> nodes_;
+    std::vector<Finished> finished_;
+    const Finished* shared_with_ = nullptr;  // earlier line that the path begins with
+    double accuracy_ = 0, rest_ = 0;         // of the radius, for the line at hand
+    std::size_t shared_nodes_ = 0;           // nodes of it that come before nodes_
 };
 
 }  // namespace lumenline

@@ -25,7 +25,7 @@ using Column = Eigen::Vector3d;
 
 constexpr int kMaxSteps = 60;
 constexpr double kToBoundary = 0.99;  // share of the way to the nearest bound that a step may go
-constexpr double kAtRest = 1e-5;      // of the radii: steps below it end the iteration
+constexpr double kAtRest = 1e-7;      // of the radii: steps below it end the iteration
 constexpr double kMuFall = 0.15;
 constexpr double kRegular = 1e-13;  // of a block's trace, added to its diagonal: some rounding errors of its sums
 
@@ -67,7 +67,7 @@ public:
             if (!factor()) return false;
             substitute();
             const double shared = advance(mu);
-            if (mu <= accuracy_ && shared > 0.9 && largest_step() < kAtRest) break;
+            if (mu <= accuracy_ && shared > 0.9 && largest_step() < std::max(kAtRest, 10 * accuracy_)) break;
             if (shared > 0.5) mu = std::max(mu * kMuFall, 0.5 * accuracy_);
         }
         if (responses_) respond(mu);
