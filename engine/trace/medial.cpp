@@ -25,7 +25,7 @@ constexpr double kLeastStep = 0.1, kLargestStep = 0.25;  // of the radius
 constexpr double kWindow = 0.5;                          // of the radius: half the chord that gives a tangent
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
-constexpr int kRounds = 10;
+constexpr int kRounds = 16;
 constexpr int kMostPieces = 4;        // of a segment
 constexpr int kSearchRounds = 2;      // of them with searches in all directions
 constexpr std::size_t kStagger = 3;   // nodes in turn look in directions turned by this part of the angle between two
@@ -46,7 +46,7 @@ constexpr double kRestShare = 5e-3;      // of the wall's uncertainty, for the r
 // Where balls touch all around, the nearest of many uncertain places is nearer than each is expected to be; where they
 // touch on two sides, their uncertainties pull the node along the sheet, farther than they lie apart.
 constexpr double kCrowding = 0.5, kSlackness = 1.5;
-constexpr double kRest = 2e-6;  // of the radius: moves below it end the rounds
+constexpr double kRest = 1e-6;  // of the radius: moves below it end the rounds
 
 }  // namespace
 

@@ -14,7 +14,9 @@
 namespace lumenline {
 
 /// Centerlines of all targets by steepest descent of the arrival times (Antiga et al. 2003, end of
-/// section 2.1), relaxed on the complex, cut at the openings' planes, and verified.
+/// section 2.1), relaxed on the complex, moved to the axis of the curved surface, cut at the openings'
+/// planes, and verified. A refined line that leaves the lumen or is no better by its own measure is
+/// dropped for its path, with the note line_not_refined.
 ///
 /// A target that no front reached, and a line that would leave the lumen, are errors of that target
 /// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced. Parts of

@@ -3,6 +3,8 @@
 #include "io/archive/model_file.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -88,6 +90,11 @@ TEST(ModelFile, LinesAndPathsComeBackExactly) {
     EXPECT_EQ(file.numbers("/centerlines/offsets"), (Numbers{0, 5, 9}));
     EXPECT_EQ(file.numbers("/centerlines/radius"), lines.radius);
     EXPECT_EQ(file.numbers("/centerlines/clearance"), lines.clearance);
+    EXPECT_EQ(file.numbers("/centerlines/radius_error"), lines.radius_error);
+    const Numbers position_error = file.numbers("/centerlines/position_error");
+    ASSERT_EQ(position_error.size(), lines.position_error.size());
+    EXPECT_TRUE(std::isnan(position_error[3]));
+    EXPECT_EQ(position_error[4], lines.position_error[4]);
     EXPECT_EQ(file.numbers("/centerlines/target"), (Numbers{1, 3}));
     EXPECT_EQ(file.numbers("/centerlines/path/line_abscissa"), lines.path.line_abscissa);
 }
