@@ -99,42 +99,6 @@ TEST(ModelFile, LinesAndPathsComeBackExactly) {
     EXPECT_EQ(file.numbers("/centerlines/path/line_abscissa"), lines.path.line_abscissa);
 }
 
-TEST(ModelFile, CharacterOfTheSurfaceComesBack) {
-    const ModelRecord record = sample_record();
-    const SurfaceCharacter& character = *record.character;
-    const ArchiveFile file = written(record, "character", {.float32_fields = false});
-    const auto expect = [&](const char* path, const Numbers& values) {
-        const Numbers read = file.numbers(path);
-        ASSERT_EQ(read.size(), values.size()) << path;
-        for (std::size_t i = 0; i < read.size(); ++i)
-            EXPECT_TRUE(read[i] == values[i] || (std::isnan(read[i]) && std::isnan(values[i]))) << path << " " << i;
-    };
-    expect("/surface/geodesic_distance", character.geodesic_distance);
-    expect("/surface/descent_length", character.descent_length);
-    expect("/surface/euclidean_distance", character.euclidean_distance);
-    expect("/surface/normalized_tangency_deviation", character.normalized_tangency_deviation);
-    expect("/surface/geodesic_distance_refined", character.geodesic_distance_refined);
-    expect("/surface/normalized_tangency_deviation_refined", character.normalized_tangency_deviation_refined);
-    expect("/surface/abscissa", character.abscissa);
-    expect("/surface/centerline_point", flat(character.centerline_point));
-    expect("/surface/centerline_id", {0, 0, 1, 1, -1});
-    expect("/surface/zone", {0, 0, 1, 2, 0});
-    expect("/voronoi/centerline_distance", character.centerline_distance);
-    expect("/characterization/jumps", {3, 4, 5});
-    expect("/characterization/not_refined", {2});
-    const ArchiveFile single = written(record, "character_32");
-    EXPECT_EQ(single.numbers("/surface/geodesic_distance")[0], static_cast<double>(1.0F / 3.0F));
-    EXPECT_EQ(single.numbers("/surface/centerline_point")[3], 1.0 / 3) << "coordinates are always double";
-}
-
-TEST(ModelFile, CharacterThatDoesNotFitTheSurfaceIsRefused) {
-    ModelRecord record = sample_record();
-    auto shorter = std::make_shared<SurfaceCharacter>(*record.character);
-    shorter->abscissa.pop_back();
-    record.character = shorter;
-    EXPECT_THROW(written(record, "character_short"), StageError);
-}
-
 TEST(ModelFile, EndpointsAndTextComeBack) {
     const ArchiveFile file = written(sample_record(), "text");
     EXPECT_EQ(file.strings("/endpoints/role"), (Strings{"inlet", "outlet", "outlet", "outlet"}));
