@@ -25,9 +25,9 @@ std::vector<double> march_from_paths(const VoronoiComplex& complex, const PathPi
     PolygonMarch<UnitMetric> march(complex, work);
     for (const PolygonId p : pieces.polygons())
         for (const VoronoiVertexId v : complex.polygon(p))
-            march.seed(v, pieces.least_distance(p, complex.vertices[at(v)]));
+            march.seed(v, pieces.least_distance(p, complex.vertices[at(v)]), p);
     march.run(context);
-    return march.times();
+    return work.time;
 }
 
 class Characterization {
@@ -52,7 +52,7 @@ public:
         result_.centerline_id.assign(n, {});
         result_.zone.resize(n);
         MedialBalls balls(surface_, complex_);
-        Descent descent(complex_, pieces_, lines_.path, work_.nodes);
+        Descent descent(complex_, pieces_, lines_.path, work_);
         for (std::size_t i = 0; i < n; ++i) {
             if (i % 16384 == 0) context_.check_cancelled();
             result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;

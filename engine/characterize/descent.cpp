@@ -21,8 +21,13 @@ constexpr double kTogether = 2;  // edge lengths between two descents that go on
 }  // namespace
 
 Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, const PathLines& path,
-                 std::span<const TimedPoint> nodes)
-    : complex_(complex), pieces_(pieces), path_(path), nodes_(nodes), known_(complex.vertex_count(), kUnknown) {}
+                 const MarchWorkspace& march)
+    : complex_(complex),
+      pieces_(pieces),
+      path_(path),
+      time_(march.time),
+      through_(march.through),
+      known_(complex.vertex_count(), kUnknown) {}
 
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     if (pieces_.crosses(p)) {
@@ -35,16 +40,16 @@ void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     const TimedPoint target{here.x, here.radius, here.time};
     for (std::size_t i = 0; i < n; ++i) {
         const VoronoiVertexId a = loop[i], b = loop[i + 1 == n ? 0 : i + 1];
-        const double ta = nodes_[at(a)].time, tb = nodes_[at(b)].time;
+        const double ta = time_[at(a)], tb = time_[at(b)];
         const bool own_end = a == place.a || a == place.b;
         if (ta < here.time || (own_end && !place.is_vertex() && ta <= here.time)) {
-            const double value = ta + distance(here.x, nodes_[at(a)].x);
+            const double value = ta + distance(here.x, complex_.vertices[at(a)]);
             if (value < best.value) best = {value, {a, a, 0}, {}, p};
         }
         if (n == 2 || !(std::min(ta, tb) < here.time) || !(std::max(ta, tb) < kInfinity)) continue;
         if (own_end && (b == place.a || b == place.b || place.is_vertex())) continue;
         if (place.is_vertex() && b == place.a) continue;
-        const TimedPoint &pa = nodes_[at(a)], &pb = nodes_[at(b)];
+        const TimedPoint pa = node(a), pb = node(b);
         const UnitMetric::Edge edge(pa, pb);
         const double value = edge.arrival(target);
         if (!(value < best.value)) continue;
@@ -54,9 +59,8 @@ void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
 }
 
 Descent::Here Descent::arrive(const ComplexPoint& place) const {
-    const double time = place.is_vertex()
-                            ? nodes_[at(place.a)].time
-                            : (1 - place.t) * nodes_[at(place.a)].time + place.t * nodes_[at(place.b)].time;
+    const double time =
+        place.is_vertex() ? time_[at(place.a)] : (1 - place.t) * time_[at(place.a)] + place.t * time_[at(place.b)];
     return {position(complex_, place), complex_.ball_radius[at(place.a)], time, place, {}};
 }
 
@@ -73,6 +77,13 @@ Descent::Step Descent::best_step(const Here& here) const {
     return best;
 }
 
+Descent::Step Descent::first_step(VoronoiVertexId v, const Here& here) const {
+    Step best{kInfinity, {}, {}, {}};
+    if (!(here.time < kInfinity)) return best;
+    try_polygon(through_[at(v)], here, best);
+    return best.value < kInfinity ? best : best_step(here);
+}
+
 bool Descent::joined(const ComplexPoint& place, DescentEnd& end) const {
     const DescentEnd &a = ends_[known_[at(place.a)]], &b = ends_[known_[at(place.b)]];
     if (!a.reached() || a.foot.line != b.foot.line) return false;
@@ -81,7 +92,8 @@ bool Descent::joined(const ComplexPoint& place, DescentEnd& end) const {
         return from + foot.share * (path_.abscissa[foot.point + 1] - from);
     };
     const double sa = along(a.foot), sb = along(b.foot);
-    if (std::fabs(sa - sb) > kTogether * distance(nodes_[at(place.a)].x, nodes_[at(place.b)].x)) return false;
+    if (std::fabs(sa - sb) > kTogether * distance(complex_.vertices[at(place.a)], complex_.vertices[at(place.b)]))
+        return false;
     const double s = (1 - place.t) * sa + place.t * sb;
     std::uint32_t k = a.foot.point;
     const std::uint32_t last = b.foot.point;
@@ -103,8 +115,7 @@ bool Descent::walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, Desc
     const auto need = [&](VoronoiVertexId w) {
         if (known_[at(w)] == kUnknown) needed.push_back(w);
     };
-    for (;;) {
-        const Step step = here.time < kInfinity ? best_step(here) : Step{kInfinity, {}, {}, {}};
+    for (Step step = first_step(v, here);; step = best_step(here)) {
         if (step.place.a.is_none()) {
             end = {step.foot, step.foot.line.is_none() ? 0 : length + step.foot.distance};
             return true;
@@ -119,7 +130,7 @@ bool Descent::walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, Desc
             end.length += length;
             return true;
         }
-        if (std::max(nodes_[at(step.place.a)].time, nodes_[at(step.place.b)].time) < nodes_[at(v)].time) {
+        if (std::max(time_[at(step.place.a)], time_[at(step.place.b)]) < time_[at(v)]) {
             need(step.place.a);
             need(step.place.b);
             if (!needed.empty()) return false;

@@ -23,9 +23,9 @@ struct DescentEnd {
 /// descents that meet in a vertex are walked once.
 class Descent {
 public:
-    /// @param nodes  vertices with T~, as the march leaves them; all must outlive the descent
+    /// @param march  with T~ and its ways, as the march leaves it; all must outlive the descent
     Descent(const VoronoiComplex& complex, const PathPieces& pieces, const PathLines& path,
-            std::span<const TimedPoint> nodes);
+            const MarchWorkspace& march);
 
     /// @returns reached() is false where T~ is infinite
     /// @cost O(polygons crossed) up to the first vertex known from before
@@ -53,7 +53,12 @@ private:
 
     void try_polygon(PolygonId p, const Here& here, Step& best) const;
     [[nodiscard]] Here arrive(const ComplexPoint& place) const;
-    Step best_step(const Here& here) const;
+    [[nodiscard]] TimedPoint node(VoronoiVertexId v) const {
+        return {complex_.vertices[at(v)], complex_.ball_radius[at(v)], time_[at(v)]};
+    }
+    [[nodiscard]] Step best_step(const Here& here) const;
+    /// The step that gave v its time.
+    [[nodiscard]] Step first_step(VoronoiVertexId v, const Here& here) const;
     /// Descends from v until known descents take over; false where `needed` have to be known first.
     bool walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, DescentEnd& end) const;
     /// Continues from a point of an edge between the descents of its ends; false where they part.
@@ -62,7 +67,8 @@ private:
     const VoronoiComplex& complex_;
     const PathPieces& pieces_;
     const PathLines& path_;
-    std::span<const TimedPoint> nodes_;
+    std::span<const double> time_;
+    std::span<const PolygonId> through_;
     std::vector<std::uint32_t> known_;  ///< per vertex, into ends_; kUnknown
     std::vector<DescentEnd> ends_;
 };

@@ -13,7 +13,7 @@ ArrivalField solve_eikonal(const VoronoiComplex& complex, std::span<const Seed> 
     for (const Seed& s : seeds) march.seed(s.vertex, s.time);
     ArrivalField field;
     field.reached = march.run(context);
-    field.time = march.times();
+    field.time = work.time;
     field.residual = eikonal_residual(complex, field.time, seeds, kResidualStride);
     return field;
 }

@@ -20,7 +20,7 @@ struct InverseRadiusMetric {
     };
     static double arrival(const TimedPoint& a, const TimedPoint& w) { return vertex_arrival(a, w.x, w.radius); }
     /// Times above this are not worth a new one: 1e-7 of the time.
-    static double worth_below(const TimedPoint& w) { return (1 - 1e-7) * w.time; }
+    static double worth_below(double time, double /*radius*/) { return (1 - 1e-7) * time; }
 };
 
 /// |grad T| = 1 (eq. 6). A time that is linear along an edge makes a plane front, for which the update
@@ -61,7 +61,7 @@ struct UnitMetric {
     /// Times above this are not worth a new one: 1e-5 of the ball radius. On the axis of a round tube thousands of
     /// polygons lie within a thousandth of the radius; a tenth of the bound doubles the time of the march there, for
     /// distances that change by 2e-5 R in the mean and 6e-4 R at most.
-    static double worth_below(const TimedPoint& w) { return w.time - 1e-5 * w.radius; }
+    static double worth_below(double time, double radius) { return time - 1e-5 * radius; }
 };
 
 }  // namespace lumenline

@@ -16,7 +16,8 @@ namespace lumenline {
 
 /// Scratch of a march; reusable from call to call, one per concurrent march.
 struct MarchWorkspace {
-    std::vector<TimedPoint> nodes;
+    std::vector<double> time;        ///< per vertex; +inf = unreached
+    std::vector<PolygonId> through;  ///< per vertex: the polygon that its time came through
     std::vector<bool> accepted;
     IndexedHeap heap;
 };
@@ -35,14 +36,14 @@ class PolygonMarch {
 public:
     PolygonMarch(const VoronoiComplex& complex, MarchWorkspace& work) : complex_(complex), work_(work) {
         const std::size_t n = complex.vertex_count();
-        work.nodes.resize(n);
-        for (std::size_t v = 0; v < n; ++v)
-            work.nodes[v] = {complex.vertices[v], complex.ball_radius[v], std::numeric_limits<double>::infinity()};
+        work.time.assign(n, std::numeric_limits<double>::infinity());
+        work.through.assign(n, PolygonId());
         work.accepted.assign(n, false);
         work.heap.reset(n);
     }
 
-    void seed(VoronoiVertexId v, double time) { offer(v.value, time); }
+    /// @param through  a polygon that holds the start and v, where there is one
+    void seed(VoronoiVertexId v, double time, PolygonId through = {}) { offer(v.value, time, through); }
 
     /// @returns the number of vertices reached
     /// @throws StageError kInterrupted
@@ -53,54 +54,60 @@ public:
             const std::uint32_t v = work_.heap.pop(key());
             reached += work_.accepted[v] ? 0 : 1;
             work_.accepted[v] = true;
-            for (const PolygonId p : complex_.polygons_of(VoronoiVertexId(v))) offer_polygon(complex_.polygon(p), v);
+            for (const PolygonId p : complex_.polygons_of(VoronoiVertexId(v))) offer_polygon(p, v);
         }
         return reached;
     }
 
-    /// Times of all vertices, when the march is done.
-    [[nodiscard]] std::vector<double> times() const {
-        std::vector<double> time(work_.nodes.size());
-        for (std::size_t v = 0; v < time.size(); ++v) time[v] = work_.nodes[v].time;
-        return time;
+private:
+    /// Heap order: the time of a vertex.
+    struct Key {
+        const double* time;
+        double operator()(std::uint32_t v) const { return time[v]; }
+    };
+    [[nodiscard]] Key key() const { return {work_.time.data()}; }
+
+    [[nodiscard]] TimedPoint node(std::uint32_t v) const {
+        return {complex_.vertices[v], complex_.ball_radius[v], work_.time[v]};
     }
 
-private:
-    /// Heap order: the time of a node.
-    struct Key {
-        const TimedPoint* nodes;
-        double operator()(std::uint32_t v) const { return nodes[v].time; }
-    };
-    [[nodiscard]] Key key() const { return {work_.nodes.data()}; }
-
-    void offer(std::uint32_t v, double time) {
-        if (!(time < Metric::worth_below(work_.nodes[v]))) return;
-        work_.nodes[v].time = time;
+    void offer(std::uint32_t v, double time, PolygonId through) {
+        if (!(time < Metric::worth_below(work_.time[v], complex_.ball_radius[v]))) return;
+        work_.time[v] = time;
+        work_.through[v] = through;
         work_.heap.push_or_decrease(v, key());
     }
 
-    void offer_polygon(std::span<const VoronoiVertexId> polygon, std::uint32_t v) {
-        const TimedPoint& from = work_.nodes[v];
+    void offer_polygon(PolygonId p, std::uint32_t v) {
+        const auto polygon = complex_.polygon(p);
         std::size_t i = 0;
         while (polygon[i].value != v) ++i;
         const std::size_t n = polygon.size();
         const std::uint32_t before = polygon[i == 0 ? n - 1 : i - 1].value,
                             after = polygon[i + 1 == n ? 0 : i + 1].value;
-        const TimedPoint* ends[2] = {work_.accepted[before] ? &work_.nodes[before] : nullptr,
-                                     work_.accepted[after] && after != before ? &work_.nodes[after] : nullptr};
+        const TimedPoint from = node(v);
+        const std::uint32_t ends[2] = {before, after};
+        const bool usable[2] = {work_.accepted[before], work_.accepted[after] && after != before};
+        const double earliest[2] = {std::min(from.time, work_.time[before]), std::min(from.time, work_.time[after])};
+        TimedPoint end_nodes[2];
         std::optional<typename Metric::Edge> edges[2];
         for (const VoronoiVertexId to : polygon) {
             const std::uint32_t w = to.value;
-            if (w == v) continue;
-            const TimedPoint& target = work_.nodes[w];
-            double best = from.time < target.time ? Metric::arrival(from, target) : target.time;
+            const double time = work_.time[w];
+            const bool across[2] = {usable[0] && w != before && earliest[0] < time,
+                                    usable[1] && w != after && earliest[1] < time};
+            if (w == v || !(from.time < time || across[0] || across[1])) continue;
+            const TimedPoint target = node(w);
+            double best = from.time < time ? Metric::arrival(from, target) : time;
             for (int k = 0; k < 2; ++k) {
-                const TimedPoint* end = ends[k];
-                if (end == nullptr || end == &target || !(std::min(from.time, end->time) < target.time)) continue;
-                if (!edges[k]) edges[k].emplace(from, *end);
+                if (!across[k]) continue;
+                if (!edges[k]) {
+                    end_nodes[k] = node(ends[k]);
+                    edges[k].emplace(from, end_nodes[k]);
+                }
                 best = std::min(best, edges[k]->arrival(target));
             }
-            offer(w, best);
+            offer(w, best, p);
         }
     }
 
