@@ -15,6 +15,13 @@ constexpr double kConverged = 1e-5;    // of the edge: the last step; slopes of 
 constexpr double kLeastStretch = 0.5;  // of 1 - curvature x distance: below it, near a focal point, any foot will do
 constexpr double kFlatCap = 0.9;       // cosine between a cap's facets and the opening's normal
 
+/// Barycentric weights moved into the triangle.
+void clamp(std::array<double, 3>& weight) {
+    double sum = 0;
+    for (double& w : weight) sum += w = std::max(w, 0.0);
+    for (double& w : weight) w /= sum;
+}
+
 /// Eigenvalues and eigenvectors of a symmetric matrix in the basis (u, v).
 void principal(double uu, double uv, double vv, Vec3 u, Vec3 v, SurfaceFoot& foot) {
     const double mean = 0.5 * (uu + vv), half = 0.5 * (uu - vv), radius = std::hypot(half, uv);
@@ -137,6 +144,7 @@ SurfaceFoot CurvedSurface::evaluate(const Place& place) {
 
 SurfaceFoot CurvedSurface::foot(Vec3 x, Vec3 start, TriangleId triangle) {
     Place place = locate(start, static_cast<std::uint32_t>(at(triangle)));
+    clamp(place.weight);
     std::uint32_t before = place.triangle;
     SurfaceFoot foot = evaluate(place), best = foot;
     double least2 = squared_norm(x - foot.point);
@@ -161,9 +169,7 @@ SurfaceFoot CurvedSurface::foot(Vec3 x, Vec3 start, TriangleId triangle) {
                 next = locate(foot.point + move, over);
             }
         }
-        double sum = 0;
-        for (double& w : next.weight) sum += w = std::max(w, 0.0);
-        for (double& w : next.weight) w /= sum;
+        clamp(next.weight);
         const bool stays = next.triangle == place.triangle && next.weight == place.weight;
         if (stays) break;
         place = next;

@@ -36,17 +36,13 @@ constexpr double kSame = 0.02;        // of the radius: paths no farther apart a
 constexpr std::size_t kContext = 3;   // nodes of a stretch taken over that stay in view
 constexpr std::size_t kParting = 2;   // nodes before the parting that are refined anew
 constexpr double kClearlyNearer = 3;  // of the wall's uncertainty
-constexpr double kResolution = 2e-5;  // of the radius: how well nodes are found on a wall without error
 constexpr double kLeastReach = 1e-4;  // of the radius
 constexpr double kLeastStretch = 1e-3;
 constexpr double kAccuracy = 1e-10, kRoughAccuracy = 1e-5;  // of the radius: of the finest and the roughest solution
 // No node needs to be found much better than the wall is known:
 constexpr double kAccuracyShare = 5e-4;  // of the wall's uncertainty, for the solution of one round
 constexpr double kRestShare = 5e-3;      // of the wall's uncertainty, for the rounds' end
-// Where balls touch all around, the nearest of many uncertain places is nearer than each is expected to be; where they
-// touch on two sides, their uncertainties pull the node along the sheet, farther than they lie apart.
-constexpr double kCrowding = 0.5, kSlackness = 1.5;
-constexpr double kRest = 1e-6;  // of the radius: moves below it end the rounds
+constexpr double kRest = 1e-6;           // of the radius: moves below it end the rounds
 
 }  // namespace
 
@@ -355,39 +351,6 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
         append(line.ridge[i], line.nodes[i], i + 1 < line.nodes.size() ? &line.nodes[i + 1] : nullptr, result);
     finished_.push_back(std::move(line));
     return result;
-}
-
-void MedialRefiner::estimate_errors() {
-    solve_ridge(problem_, accuracy_, true);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        Node& node = nodes_[i];
-        if (node.frozen) continue;
-        const RidgeNode& ridge = problem_.nodes[i];
-        const double sheet = sheet_likeness(i), sheet2 = sheet * sheet;
-        node.radius_error = std::hypot(ridge.radius_response, node.uncertainty) * (1 + kCrowding * (1 - sheet2));
-        node.position_error = ridge.move_response * (1 + kSlackness * sheet2) + kResolution * node.radius;
-    }
-}
-
-double MedialRefiner::noise_level() const {
-    std::vector<double> levels;
-    for (const Node& node : nodes_)
-        if (!node.frozen) levels.push_back(node.uncertainty / node.radius);
-    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
-    std::nth_element(levels.begin(), middle, levels.end());
-    return *middle;
-}
-
-double MedialRefiner::sheet_likeness(std::size_t i) const {
-    const RidgeNode& ridge = problem_.nodes[i];
-    double a = 0, b = 0, c = 0;
-    for (std::uint32_t k = ridge.first; k < ridge.last; ++k) {
-        const auto& g = problem_.bounds[k].gradient;
-        a += problem_.pressure[k] * g[0] * g[0];
-        b += problem_.pressure[k] * g[0] * g[1];
-        c += problem_.pressure[k] * g[1] * g[1];
-    }
-    return a + c > 0 ? std::hypot(a - c, 2 * b) / (a + c) : 0.0;
 }
 
 void MedialRefiner::append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const {

@@ -104,6 +104,14 @@ TEST(MedialLine, EstimatesCoverTheErrorsOfRoundTubes) {
     EXPECT_LT(radius_estimate, 3 * radius_error);
 }
 
+TEST(MedialLine, EstimatesAreNumbersInStrongNoise) {
+    for (const std::uint64_t seed : {41U, 42U}) {
+        const Processed medial = run(PhantomKind::kCylinder, 20, 0.1, seed);
+        for (const double e : medial.lines().radius_error) EXPECT_TRUE(std::isfinite(e));
+        for (const double e : medial.lines().position_error) EXPECT_TRUE(std::isfinite(e));
+    }
+}
+
 TEST(MedialLine, LinesOfOneRootCoincideWhereTheirPathsDo) {
     PhantomOptions options;
     options.kind = PhantomKind::kTorus;
