@@ -118,7 +118,7 @@ void add_model(CLI::App& app, std::function<int()>& action) {
     auto arguments = std::make_shared<ModelArguments>();
     ModelTask& task = arguments->task;
     CLI::App* verb = app.add_subcommand("model", "Compute one surface into one model file");
-    verb->add_option("SURFACE", task.surface_path, "Triangle surface: STL, PLY, OBJ, OFF, legacy VTK")->required();
+    verb->add_option("SURFACE", task.surface_path, "Triangle surface: STL, PLY, OBJ, OFF, VTP, legacy VTK")->required();
     verb->add_option("-o,--output", arguments->output, "Model file to write; .hdf opens in ParaView")->required();
     verb->add_option("--inlet", arguments->inlets, "Inlet point X,Y,Z; may be repeated")->take_all();
     verb->add_option("--outlet", arguments->outlets, "Outlet point X,Y,Z; may be repeated")->take_all();

@@ -56,6 +56,7 @@ void ModelJob::load(const Loader& loader) {
     run(Stage::kLoad, [&](StageContext&) {
         soup_ = loader(task_);
         record_.identity.source_sha256 = soup_.source_sha256;
+        record_.diagnostics.insert(record_.diagnostics.end(), soup_.diagnostics.begin(), soup_.diagnostics.end());
     });
 }
 

@@ -38,12 +38,18 @@ std::size_t line_number(std::string_view bytes, std::size_t position) {
     return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), end));
 }
 
+std::string place(const SourceFile& file, std::size_t position) {
+    if (file.origin != nullptr) {
+        return place(*file.origin, file.origin_position) + ", decoded byte " + std::to_string(position);
+    }
+    return file.text ? "line " + std::to_string(line_number(file.bytes, position))
+                     : "byte " + std::to_string(position);
+}
+
 }  // namespace
 
 void fail_at(const SourceFile& file, std::size_t position, ErrorCode code, const std::string& what) {
-    const std::string where =
-        file.text ? "line " + std::to_string(line_number(file.bytes, position)) : "byte " + std::to_string(position);
-    throw StageError(Stage::kLoad, code, file.path + ", " + where + ": " + what);
+    throw StageError(Stage::kLoad, code, file.path + ", " + place(file, position) + ": " + what);
 }
 
 void fail_file(const SourceFile& file, ErrorCode code, const std::string& what) {
@@ -64,7 +70,7 @@ void check_count(const SourceFile& file, std::size_t position, std::uint64_t cou
         fail_at(file, position, ErrorCode::kFileFormat,
                 "expected " + std::to_string(count) + " " + std::string(noun) + " of at least " +
                     std::to_string(bytes_each) + " bytes each, found only " + std::to_string(rest) +
-                    " bytes up to the end of the file");
+                    " bytes up to " + std::string(file.end));
     }
     if (count > kMaxCount) {
         fail_at(file, position, ErrorCode::kTooLarge,
@@ -162,6 +168,19 @@ double Cursor::coordinate() {
     return value;
 }
 
+double Cursor::number() {
+    skip();
+    const char* begin = file_.bytes.data() + position_;
+    const char* end = file_.bytes.data() + file_.bytes.size();
+    double value = 0;
+    const auto [stop, error] = std::from_chars(skip_plus(begin, end), end, value);
+    if (error == std::errc::invalid_argument || (stop != end && !ends_token(*stop))) {
+        fail_expected(position_, "a number");
+    }
+    position_ += static_cast<std::size_t>(stop - begin);
+    return error == std::errc{} ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::optional<std::int64_t> Cursor::integer_prefix() {
     const char* begin = file_.bytes.data() + position_;
     const char* end = file_.bytes.data() + file_.bytes.size();
@@ -191,7 +210,7 @@ std::uint64_t Cursor::count(std::string_view noun) {
 void Cursor::fail_expected(std::size_t position, std::string_view what) const {
     const std::string_view found = file_.bytes.substr(position, token_end(position) - position);
     std::string name = in_quotes(found);
-    if (found.empty()) name = position >= file_.bytes.size() ? "the end of the file" : "the end of the line";
+    if (found.empty()) name = position >= file_.bytes.size() ? std::string(file_.end) : "the end of the line";
     fail_at(file_, position, ErrorCode::kFileFormat, "expected " + std::string(what) + ", found " + name);
 }
 

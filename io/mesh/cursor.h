@@ -19,6 +19,10 @@ struct SourceFile {
     std::string path;  ///< as given, for messages
     std::string_view bytes;
     bool text = true;  ///< messages tell positions as line numbers; else as byte offsets
+    std::string_view end = "the end of the file";  ///< what follows the last byte, for messages
+    /// Where `bytes` were decoded from, for messages; null if they are those of the file.
+    const SourceFile* origin = nullptr;
+    std::size_t origin_position = 0;
 };
 
 /// Throws StageError(kLoad, code): "PATH, line N: what" or "PATH, byte N: what".
@@ -72,6 +76,8 @@ public:
     void expect(std::string_view lower);
     /// Next token as a finite number.
     double coordinate();
+    /// Next token as any number; NaN also where it is beyond double precision.
+    double number();
     /// Next token as a decimal integer; `noun` says what it is, as in "a point index".
     std::int64_t integer(std::string_view noun);
     /// Next token as a count: an integer that is not negative.

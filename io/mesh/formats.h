@@ -19,5 +19,6 @@ TriangleSoup parse_ply(const SourceFile& file);
 TriangleSoup parse_obj(const SourceFile& file);
 TriangleSoup parse_off(const SourceFile& file);
 TriangleSoup parse_vtk_legacy(const SourceFile& file);
+TriangleSoup parse_vtk_xml(const SourceFile& file);
 
 }  // namespace lumenline::mesh

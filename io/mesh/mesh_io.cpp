@@ -19,7 +19,7 @@ namespace lumenline {
 namespace mesh {
 namespace {
 
-constexpr std::string_view kFormats = "STL, PLY, OBJ, OFF and legacy VTK polydata (.vtk)";
+constexpr std::string_view kFormats = "STL, PLY, OBJ, OFF, VTK XML polydata (.vtp) and legacy VTK (.vtk)";
 
 std::string lower_extension(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -46,11 +46,7 @@ TriangleSoup parse_surface(const SourceFile& file) {
     const std::string extension = lower_extension(file.path);
     Cursor cursor(file, bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0, Layout::kFree, '#');
     const std::string_view word = cursor.token();
-    if (word.starts_with("<?xml") || word.starts_with("<VTKFile")) {
-        fail_file(file, ErrorCode::kFileFormat,
-                  "expected one of the formats that are read, " + std::string(kFormats) +
-                      ", found an XML file; save it as legacy .vtk polydata or .ply");
-    }
+    if (word.starts_with("<?xml") || word.starts_with("<VTKFile")) return parse_vtk_xml(file);
     if (is_word(word, "solid")) return parse_stl(file);
     if (is_off_keyword(word)) return parse_off(file);
     if (extension == ".stl") return parse_stl(file);
@@ -58,6 +54,7 @@ TriangleSoup parse_surface(const SourceFile& file) {
     if (extension == ".obj") return parse_obj(file);
     if (extension == ".ply") return parse_ply(file);
     if (extension == ".vtk") return parse_vtk_legacy(file);
+    if (extension == ".vtp") return parse_vtk_xml(file);
     fail_file(file, ErrorCode::kFileFormat,
               "expected one of the formats that are read, " + std::string(kFormats) + ", found extension " +
                   in_quotes(extension) + " and content that begins with " + in_quotes(bytes.substr(0, 16)));

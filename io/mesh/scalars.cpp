@@ -1,4 +1,4 @@
-// Typed numbers of PLY and legacy VTK files. Every number is checked against the end of the file when it is
+// Typed numbers of PLY and VTK files. Every number is checked against the end of the file when it is
 // read, because list lengths inside the data can be as wrong as the counts of the header.
 
 #include "io/mesh/scalars.h"
@@ -33,7 +33,7 @@ const char* ScalarReader::take(std::size_t size, std::string_view noun) {
     last_ = cursor_.position();
     if (cursor_.remaining() < size) {
         fail_at(file_, last_, ErrorCode::kFileFormat,
-                "expected " + std::string(noun) + " of " + counted(size, "byte") + ", found the end of the file " +
+                "expected " + std::string(noun) + " of " + counted(size, "byte") + ", found " + std::string(file_.end) + " " +
                     counted(cursor_.remaining(), "byte") + " later");
     }
     cursor_.move_to(last_ + size);
@@ -51,6 +51,15 @@ double ScalarReader::coordinate(ScalarType type) {
         fail_at(file_, last_, ErrorCode::kBadCoordinate, "expected a finite coordinate, found " + short_text(value));
     }
     return value;
+}
+
+double ScalarReader::number(ScalarType type) {
+    if (encoding_ == Encoding::kText) {
+        cursor_.peek();
+        last_ = cursor_.position();
+        return cursor_.number();
+    }
+    return load_number(take(scalar_size(type), "a number"), type, encoding_);
 }
 
 std::int64_t ScalarReader::integer(ScalarType type, std::string_view noun) {
@@ -82,7 +91,7 @@ void ScalarReader::skip(ScalarType type, std::uint64_t count) {
     if (count > cursor_.remaining() / scalar_size(encoding_ == Encoding::kText ? ScalarType::kInt8 : type)) {
         fail_at(file_, cursor_.position(), ErrorCode::kFileFormat,
                 "expected " + std::to_string(count) + " more numbers, found only " +
-                    counted(cursor_.remaining(), "byte") + " up to the end of the file");
+                    counted(cursor_.remaining(), "byte") + " up to " + std::string(file_.end));
     }
     if (encoding_ != Encoding::kText) {
         cursor_.move_to(cursor_.position() + static_cast<std::size_t>(count) * scalar_size(type));

@@ -12,7 +12,7 @@ namespace lumenline::mesh {
 
 enum class Encoding { kText, kLittleEndian, kBigEndian };
 
-/// Types of the numbers that PLY and legacy VTK files declare.
+/// Types of the numbers that PLY and VTK files declare.
 enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
 
 /// Bytes of one number in a binary file.
@@ -73,6 +73,8 @@ public:
     }
     /// Finite number (kBadCoordinate otherwise).
     double coordinate(ScalarType type);
+    /// Any number, also NaN or infinite.
+    double number(ScalarType type);
     /// Whole number; `noun` says what it is, as in "a point index".
     std::int64_t integer(ScalarType type, std::string_view noun);
     /// Whole number in [0, limit).

@@ -1,47 +1,35 @@
 // Legacy VTK polydata, versions 1.0 to 5.1, ascii and binary (always big-endian). Up to 4.x a cell section is
 // "POLYGONS n size" and n times "k i0 ... ik-1"; from 5.0 on it is "POLYGONS n+1 size" and two arrays, OFFSETS and
 // CONNECTIVITY. The word OFFSETS tells the forms apart. Sections end at POINT_DATA or CELL_DATA, behind which no
-// geometry follows.
+// geometry follows. A METADATA block may follow any array.
 //
-// Binary arrays begin right behind the line of their header and have no mark at their end. A METADATA block may
-// follow any array and ends with an empty line.
+// An unstructured grid of flat cells is a surface too. Its cells stand in one section CELLS, of the same two forms,
+// and their types behind them, so that corners are held until the types are known.
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
-#include "io/mesh/faces.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/scalars.h"
+#include "io/mesh/vtk_arrays.h"
+#include "io/mesh/vtk_cells.h"
 
 namespace lumenline::mesh {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{
-    {"char", ScalarType::kInt8},
-    {"signed_char", ScalarType::kInt8},
-    {"unsigned_char", ScalarType::kUint8},
-    {"short", ScalarType::kInt16},
-    {"unsigned_short", ScalarType::kUint16},
-    {"int", ScalarType::kInt32},
-    {"vtkidtype", ScalarType::kInt32},  // written as int whatever its size in memory
-    {"unsigned_int", ScalarType::kUint32},
-    {"long", ScalarType::kInt64},
-    {"unsigned_long", ScalarType::kUint64},
-    {"long_long", ScalarType::kInt64},
-    {"vtktypeint64", ScalarType::kInt64},
-    {"vtktypeint32", ScalarType::kInt32},
-    {"vtktypeuint64", ScalarType::kUint64},
-    {"float", ScalarType::kFloat32},
-    {"double", ScalarType::kFloat64},
-}};
-
-enum class CellKind { kSkipped, kPolygons, kStrips };
+// The first three in the order of polydata in cell arrays.
+enum class CellKind { kSkipped, kPolygons, kStrips, kGrid };
 
 class VtkParser {
 public:
     explicit VtkParser(const SourceFile& given)
-        : file_(given), cursor_(file_, 0, Layout::kFree), faces_(file_), reader_(parse_header()) {}
+        : file_(given),
+          cursor_(file_, 0, Layout::kFree),
+          reader_(parse_header()),
+          arrays_(file_, cursor_, reader_),
+          cells_(file_) {}
     VtkParser(const VtkParser&) = delete;
     VtkParser& operator=(const VtkParser&) = delete;
 
@@ -49,7 +37,9 @@ public:
         while (parse_section()) {
         }
         if (!has_points_) fail_file(file_, ErrorCode::kFileFormat, "expected a section POINTS, found none");
-        return make_soup(file_, std::move(points_), faces_, file_.text ? cursor_.digits() : 0);
+        if (grid_offsets_.size() > 1)
+            fail_file(file_, ErrorCode::kFileFormat, "expected a section CELL_TYPES, found none");
+        return cells_.make_soup(std::move(points_), file_.text ? cursor_.digits() : 0);
     }
 
 private:
@@ -60,22 +50,26 @@ private:
     void parse_packed_cells(CellKind kind, std::uint64_t cell_count, std::uint64_t size);
     void parse_offset_cells(CellKind kind, std::uint64_t offset_count, std::uint64_t size);
     void parse_cell(CellKind kind, ScalarType type, std::uint64_t corner_count, std::size_t position);
-    void skip_metadata();
-    void skip_field();
-    void skip_strings(std::uint64_t count);
-    ScalarType parse_type();
-    void begin_array();
+    void parse_cell_types();
+    void add_grid_cell(std::int64_t type, std::span<std::uint32_t> corners, std::size_t position);
+    void parse_attributes(std::string_view section);
     [[noreturn]] void fail(std::size_t position, const std::string& what) const {
         fail_at(file_, position, ErrorCode::kFileFormat, what);
     }
 
     SourceFile file_;
     Cursor cursor_;
-    FaceCollector faces_;
+    bool is_grid_ = false;
     ScalarReader reader_;
+    LegacyArrays arrays_;
+    VtkCells cells_;
     std::vector<Vec3> points_;
     bool has_points_ = false;
-    std::vector<std::uint32_t> corners_;  // scratch
+    CellKind last_kind_ = CellKind::kSkipped;
+    bool in_order_ = true;                         // the cells, as their arrays will be
+    std::vector<std::uint32_t> grid_corners_;      // of the cells of a grid whose types are not known yet
+    std::vector<std::size_t> grid_offsets_ = {0};  // into grid_corners_, of each cell and one more
+    std::vector<std::uint32_t> corners_;           // scratch
 };
 
 ScalarReader VtkParser::parse_header() {
@@ -96,8 +90,10 @@ ScalarReader VtkParser::parse_header() {
     if (!binary) require_text(file_);
     cursor_.expect("dataset");
     const std::string_view dataset = cursor_.token();
-    if (!is_word(dataset, "polydata")) {
-        cursor_.fail_expected(cursor_.position() - dataset.size(), "'POLYDATA', the only VTK dataset that is read");
+    is_grid_ = is_word(dataset, "unstructured_grid");
+    if (!is_grid_ && !is_word(dataset, "polydata")) {
+        cursor_.fail_expected(cursor_.position() - dataset.size(),
+                              "'POLYDATA' or 'UNSTRUCTURED_GRID', the only VTK datasets that are read");
     }
     file_.text = !binary;
     return {file_, cursor_, binary ? Encoding::kBigEndian : Encoding::kText};
@@ -106,50 +102,48 @@ ScalarReader VtkParser::parse_header() {
 // False at the end of the geometry.
 bool VtkParser::parse_section() {
     const std::string_view word = cursor_.token();
-    if (word.empty() || is_word(word, "point_data") || is_word(word, "cell_data")) return false;
+    if (word.empty() || is_word(word, "point_data") || is_word(word, "cell_data")) {
+        parse_attributes(word);
+        return false;
+    }
     if (is_word(word, "points")) {
         parse_points();
-    } else if (is_word(word, "polygons")) {
+    } else if (is_grid_ && is_word(word, "cells")) {
+        parse_cells(CellKind::kGrid);
+    } else if (is_grid_ && is_word(word, "cell_types")) {
+        parse_cell_types();
+    } else if (!is_grid_ && is_word(word, "polygons")) {
         parse_cells(CellKind::kPolygons);
-    } else if (is_word(word, "triangle_strips")) {
+    } else if (!is_grid_ && is_word(word, "triangle_strips")) {
         parse_cells(CellKind::kStrips);
-    } else if (is_word(word, "vertices") || is_word(word, "lines")) {
+    } else if (!is_grid_ && (is_word(word, "vertices") || is_word(word, "lines"))) {
         parse_cells(CellKind::kSkipped);
     } else if (is_word(word, "metadata")) {
-        skip_metadata();
+        arrays_.skip_metadata();
     } else if (is_word(word, "field")) {
-        skip_field();
+        arrays_.parse_field(nullptr);
     } else {
         cursor_.fail_expected(cursor_.position() - word.size(),
-                              "a section POINTS, VERTICES, LINES, POLYGONS, TRIANGLE_STRIPS, METADATA, FIELD, "
-                              "POINT_DATA or CELL_DATA");
+                              is_grid_ ? "a section POINTS, CELLS, CELL_TYPES, METADATA, FIELD, POINT_DATA or CELL_DATA"
+                                       : "a section POINTS, VERTICES, LINES, POLYGONS, TRIANGLE_STRIPS, METADATA, "
+                                         "FIELD, POINT_DATA or CELL_DATA");
     }
     return true;
 }
 
-ScalarType VtkParser::parse_type() {
-    const std::string_view word = cursor_.token();
-    for (const auto& [name, type] : kTypes) {
-        if (is_word(word, name)) return type;
-    }
-    cursor_.fail_expected(cursor_.position() - word.size(), "a VTK number type such as float, double or vtktypeint64");
-}
-
-// Leaves the header line of an array.
-void VtkParser::begin_array() {
-    if (file_.text) return;
-    const std::size_t end = file_.bytes.find('\n', cursor_.position());
-    if (end == std::string_view::npos)
-        fail(cursor_.position(), "expected an array behind its header line, found the end of the file");
-    cursor_.move_to(end + 1);
+void VtkParser::parse_attributes(std::string_view section) {
+    if (in_order_) return arrays_.parse_attributes(section, cells_);
+    cells_.report_unread(file_.path +
+                         ": the cell data are not read, because the cells do not stand in the order vertices, lines, "
+                         "polygons, strips");
 }
 
 void VtkParser::parse_points() {
     const std::size_t begin = cursor_.position();
     if (has_points_) fail(begin, "expected one section POINTS, found a second one");
     const std::uint64_t count = cursor_.count("the number of points");
-    const ScalarType type = parse_type();
-    begin_array();
+    const ScalarType type = arrays_.parse_type();
+    arrays_.begin_array();
     // The last number of a text file needs no separator.
     check_count(file_, cursor_.position(), count, 3 * reader_.least_size(type) - (file_.text ? 1 : 0), "points");
     points_.resize(count);
@@ -168,13 +162,17 @@ void VtkParser::parse_cells(CellKind kind) {
     if (kind != CellKind::kSkipped && count > 0 && !has_points_) {
         fail(begin, "expected the section POINTS before the cells, found the cells first");
     }
+    if (count > 0) {
+        in_order_ = in_order_ && kind >= last_kind_;
+        last_kind_ = kind;
+    }
     const std::size_t header_end = cursor_.position();
     if (is_word(cursor_.peek(), "offsets")) {
         parse_offset_cells(kind, count, size);
         return;
     }
     cursor_.move_to(header_end);
-    begin_array();
+    arrays_.begin_array();
     parse_packed_cells(kind, count, size);
 }
 
@@ -188,6 +186,7 @@ void VtkParser::parse_packed_cells(CellKind kind, std::uint64_t cell_count, std:
     }
     if (kind == CellKind::kSkipped) {
         reader_.skip(kType, size);
+        cells_.skip(cell_count);
         return;
     }
     std::uint64_t used = 0;
@@ -210,8 +209,8 @@ void VtkParser::parse_packed_cells(CellKind kind, std::uint64_t cell_count, std:
 
 void VtkParser::parse_offset_cells(CellKind kind, std::uint64_t offset_count, std::uint64_t size) {
     cursor_.expect("offsets");
-    const ScalarType offset_type = parse_type();
-    begin_array();
+    const ScalarType offset_type = arrays_.parse_type();
+    arrays_.begin_array();
     check_count(file_, cursor_.position(), offset_count, file_.text ? 1 : scalar_size(offset_type), "cell offsets");
     std::vector<std::uint64_t> offsets(offset_count);
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -230,11 +229,12 @@ void VtkParser::parse_offset_cells(CellKind kind, std::uint64_t offset_count, st
                                           std::to_string(size) + ", found " + std::to_string(last));
     }
     cursor_.expect("connectivity");
-    const ScalarType type = parse_type();
-    begin_array();
+    const ScalarType type = arrays_.parse_type();
+    arrays_.begin_array();
     check_count(file_, cursor_.position(), size, file_.text ? 1 : scalar_size(type), "corners");
     if (kind == CellKind::kSkipped) {
         reader_.skip(type, size);
+        cells_.skip(offsets.empty() ? 0 : offsets.size() - 1);
         return;
     }
     for (std::size_t i = 1; i < offsets.size(); ++i) {
@@ -245,70 +245,50 @@ void VtkParser::parse_offset_cells(CellKind kind, std::uint64_t offset_count, st
 void VtkParser::parse_cell(CellKind kind, ScalarType type, std::uint64_t corner_count, std::size_t position) {
     corners_.resize(corner_count);
     for (std::uint32_t& corner : corners_) corner = reader_.index(type, points_.size());
-    if (kind == CellKind::kPolygons || corner_count < 3) {
-        faces_.add(corners_, position);
-        return;
-    }
-    for (std::size_t i = 2; i < corners_.size(); ++i) {
-        // Every other triangle of a strip runs backwards.
-        const std::size_t odd = i % 2;
-        faces_.add(std::array{corners_[i - 2 + odd], corners_[i - 1 - odd], corners_[i]}, position);
-    }
-}
-
-void VtkParser::skip_metadata() {
-    cursor_.line();
-    while (!cursor_.at_end()) {
-        if (cursor_.line().find_first_not_of(" \t\r") == std::string_view::npos) return;
+    if (kind == CellKind::kGrid) {
+        grid_corners_.insert(grid_corners_.end(), corners_.begin(), corners_.end());
+        grid_offsets_.push_back(grid_corners_.size());
+    } else if (kind == CellKind::kStrips) {
+        cells_.add_strip(corners_, position);
+    } else {
+        cells_.add_polygon(corners_, position);
     }
 }
 
-// FIELD name n, then n arrays "name components tuples type".
-void VtkParser::skip_field() {
-    if (cursor_.token().empty()) cursor_.fail_expected(cursor_.position(), "the name of a field");
-    const std::uint64_t arrays = cursor_.count("the number of arrays of a field");
-    check_count(file_, cursor_.position(), arrays, 8, "arrays");
-    for (std::uint64_t a = 0; a < arrays; ++a) {
-        while (is_word(cursor_.peek(), "metadata")) skip_metadata();
-        if (cursor_.token().empty()) cursor_.fail_expected(cursor_.position(), "the name of a field array");
-        const std::uint64_t components = cursor_.count("the number of components of a field array");
-        const std::uint64_t tuples = cursor_.count("the number of tuples of a field array");
-        check_count(file_, cursor_.position(), components, 1, "components");
-        check_count(file_, cursor_.position(), tuples, 1, "tuples");
-        const std::uint64_t numbers = components * tuples;  // both below 2^31
-        const std::string_view type = cursor_.peek();
-        const bool is_string = is_word(type, "string");
-        const bool is_bit = is_word(type, "bit");
-        const ScalarType scalar = is_string || is_bit ? ScalarType::kUint8 : parse_type();
-        if (is_string || is_bit) cursor_.token();
-        begin_array();
-        if (is_string) {
-            skip_strings(numbers);
-        } else {
-            reader_.skip(scalar, is_bit && !file_.text ? (numbers + 7) / 8 : numbers);
-        }
+// Cells of a grid, once their types are known.
+void VtkParser::parse_cell_types() {
+    const std::size_t begin = cursor_.position();
+    const std::uint64_t count = cursor_.count("the number of cell types");
+    if (count + 1 != grid_offsets_.size()) {
+        fail(begin, "expected as many cell types as cells, " + std::to_string(grid_offsets_.size() - 1) + ", found " +
+                        std::to_string(count));
     }
+    arrays_.begin_array();
+    for (std::size_t c = 0; c < count; ++c) {
+        const std::int64_t type = reader_.integer(ScalarType::kInt32, "the type of a cell");
+        const std::size_t size = grid_offsets_[c + 1] - grid_offsets_[c];
+        add_grid_cell(type, std::span(grid_corners_).subspan(grid_offsets_[c], size), reader_.last_position());
+    }
+    grid_offsets_ = {0};
+    grid_corners_.clear();
 }
 
-// Text: one encoded line each. Binary: the two highest bits of the first byte tell how many bytes hold the length.
-void VtkParser::skip_strings(std::uint64_t count) {
-    if (file_.text) cursor_.line();
-    for (std::uint64_t i = 0; i < count; ++i) {
-        if (cursor_.at_end()) fail(cursor_.position(), "expected a string of a field array, found the end of the file");
-        if (file_.text) {
-            cursor_.line();
-            continue;
-        }
-        const auto first = static_cast<unsigned char>(file_.bytes[cursor_.position()]);
-        const std::size_t width = std::size_t{8} >> (first >> 6U);
-        check_count(file_, cursor_.position(), width, 1, "bytes of a string's length");
-        std::uint64_t length = first & 0x3FU;
-        for (std::size_t b = 1; b < width; ++b) {
-            length = length << 8U | static_cast<unsigned char>(file_.bytes[cursor_.position() + b]);
-        }
-        cursor_.move_to(cursor_.position() + width);
-        reader_.skip(ScalarType::kUint8, length);
+// Types by VTK's numbers (vtkCellType.h).
+void VtkParser::add_grid_cell(std::int64_t type, std::span<std::uint32_t> corners, std::size_t position) {
+    constexpr std::int64_t kPolyline = 4, kTriangle = 5, kStrip = 6, kPixel = 8, kQuad = 9;
+    if (type >= 0 && type <= kPolyline) return cells_.skip(1);
+    if (type < 0 || type > kQuad) {
+        fail(position, "expected a surface of triangles, quads, polygons and strips, found a cell of VTK type " +
+                           std::to_string(type) + "; extract the surface of the grid first");
     }
+    const std::size_t needed = type == kTriangle ? 3 : type == kPixel || type == kQuad ? 4 : corners.size();
+    if (corners.size() != needed) {
+        fail(position, "expected " + std::to_string(needed) + " corners of a cell of VTK type " + std::to_string(type) +
+                           ", found " + std::to_string(corners.size()));
+    }
+    if (type == kStrip) return cells_.add_strip(corners, position);
+    if (type == kPixel) std::swap(corners[2], corners[3]);  // a pixel's corners run row by row
+    cells_.add_polygon(corners, position);
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ const std::vector<Library>& libraries() {
         {"yaml-cpp", {"yaml-cpp/"}, {"config"}},
         {"OpenMesh", {"OpenMesh/"}, {"engine/condition", "io/mesh"}},
         {"OpenSSL", {"openssl/"}, {"io/mesh"}},
+        {"pugixml", {"pugixml"}, {"io/mesh"}},
+        {"zlib", {"zlib.h"}, {"io/mesh"}},
         {"CLI11", {"CLI/"}, {"engine/cli"}},
         {"VTK", {"vtk"}, {}},
         {"GoogleTest", {"gtest/", "gmock/", "benchmark/"}, {}},

@@ -26,6 +26,7 @@ void expect_sound(const TriangleSoup& soup) {
         for (const std::uint32_t corner : triangle) ASSERT_LT(corner, soup.points.size());
     }
     EXPECT_TRUE(std::isfinite(soup.coordinate_rounding));
+    for (const CellLabels& labels : soup.cell_labels) EXPECT_EQ(labels.values.size(), soup.triangles.size());
 }
 
 void expect_load_error(const StageError& error, const std::string& name) {

@@ -6,6 +6,7 @@
 #include "io/mesh/mesh_io.h"
 #include "io/mesh/sha256.h"
 #include "tests/mesh/samples.h"
+#include "tests/mesh/vtk_samples.h"
 
 namespace lumenline {
 namespace {
@@ -110,6 +111,31 @@ TEST(MeshRead, ByteOrderMarkBeforeTextIsPassedOver) {
     for (const std::string name : {"plain.obj", "plain.off", "ascii.stl"}) {
         const Sample& sample = samples::named(name);
         EXPECT_EQ(samples::corners_of(parse(name, "\xEF\xBB\xBF" + sample.bytes)), sample.corners) << name;
+    }
+}
+
+TEST(MeshRead, VtpNumbersOfEveryType) {
+    samples::VtpPiece piece = samples::tetrahedron_piece();
+    piece.points = {{0, 0, 0}, {100, 0, 0}, {0, 120, 0}, {5, 10, 127}};  // in Int8 too
+    for (const std::string type :
+         {"Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Float32", "Float64"}) {
+        for (auto [name, style] : samples::vtp_styles()) {
+            SCOPED_TRACE(name + " " + type);
+            style.point_type = style.index_type = type;
+            const TriangleSoup soup = parse("a", samples::vtp_file({piece}, style));
+            EXPECT_EQ(soup.points, piece.points);
+            EXPECT_EQ(soup.triangles,
+                      (std::vector<std::array<std::uint32_t, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {3, 2, 0}}));
+        }
+    }
+}
+
+TEST(MeshRead, LegacyVtkOfEveryVersion) {
+    const Sample& sample = samples::named("old.vtk");
+    for (const std::string version : {"1.0", "2.0", "3.0", "4.0", "4.1", "4.2", "5.0", "5.1"}) {
+        std::string bytes = sample.bytes;
+        bytes.replace(bytes.find("1.0"), 3, version);
+        EXPECT_EQ(samples::corners_of(parse("a", bytes)), sample.corners) << version;
     }
 }
 

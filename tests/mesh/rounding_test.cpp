@@ -9,6 +9,7 @@
 #include "io/mesh/faces.h"
 #include "io/mesh/formats.h"
 #include "tests/mesh/samples.h"
+#include "tests/mesh/vtk_samples.h"
 
 namespace lumenline {
 namespace {
@@ -21,6 +22,27 @@ TEST(CoordinateRounding, BinaryFloatsRoundAtTwentyFourBits) {
     EXPECT_EQ(mesh::parse_surface({"a", samples::named("binary.stl").bytes}).coordinate_rounding, std::ldexp(3.0, -24));
     EXPECT_EQ(mesh::parse_surface({"a", samples::named("float.vtk").bytes}).coordinate_rounding, std::ldexp(3.0, -24));
     EXPECT_EQ(mesh::parse_surface({"a", samples::named("big.ply").bytes}).coordinate_rounding, std::ldexp(3.0, -24));
+}
+
+TEST(CoordinateRounding, VtpRoundsByItsNumbersAndNotByItsDeclaration) {
+    samples::VtpPiece piece = samples::tetrahedron_piece();
+    for (auto [name, style] : samples::vtp_styles()) {
+        if (name == "ascii") continue;
+        for (const std::string type : {"Float32", "Float64"}) {
+            style.point_type = type;
+            piece.points[1].x = 1.5;
+            const std::string floats = samples::vtp_file({piece}, style);
+            EXPECT_EQ(mesh::parse_surface({"a", floats}).coordinate_rounding, std::ldexp(3.0, -24)) << name << type;
+            piece.points[1].x = 0.1;
+            const std::string tenth = samples::vtp_file({piece}, style);
+            EXPECT_EQ(mesh::parse_surface({"a", tenth}).coordinate_rounding,
+                      std::ldexp(3.0, type == "Float32" ? -24 : -53))
+                << name << type;
+        }
+    }
+    // As text: 0.12345 has five digits, so that 3 is known to 0.5e-4. Relative tolerance 1e-12: a computed power.
+    piece.points[1].x = 0.12345;
+    EXPECT_NEAR(mesh::parse_surface({"a", samples::vtp_file({piece}, {})}).coordinate_rounding, 5e-5, 5e-17);
 }
 
 TEST(CoordinateRounding, BinaryDoublesRoundAtFiftyThreeBitsUnlessAllAreFloats) {

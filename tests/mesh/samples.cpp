@@ -10,6 +10,8 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "tests/mesh/vtk_samples.h"
+
 namespace lumenline::samples {
 namespace {
 
@@ -268,6 +270,8 @@ const std::vector<Sample>& all() {
         add_off(list);
         add_vtk_text(list);
         add_vtk_binary(list);
+        add_vtk_grids(list);
+        add_vtp(list);
         return list;
     }();
     return samples;
