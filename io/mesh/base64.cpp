@@ -40,6 +40,7 @@ void StoredBytes::read(char* out, std::size_t size, std::string_view noun) {
                 "expected " + std::string(noun) + " of " + counted(size, "byte") + ", found at most " +
                     std::to_string(remaining()) + " before the end of the array");
     }
+    if (size == 0) return;  // where `out` may be null, which memcpy must not see
     if (!is_base64_) {
         std::memcpy(out, file_.bytes.data() + position_, size);
         position_ += size;
