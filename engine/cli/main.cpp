@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
         "Exit status: 0 all models ok or warning, 1 at least one failed, 2 usage or configuration error, 3 stopped.");
     std::function<int()> action;
     add_run(app, action);
+    add_validate(app, action);
     add_model(app, action);
     add_browse(app, action);
     add_phantom(app, action);

@@ -19,6 +19,9 @@ enum ExitStatus : int {
 /// Adds the verb `run COHORT.yaml`: computes a cohort into its archive.
 void add_run(CLI::App& app, std::function<int()>& action);
 
+/// Adds the verb `validate COHORT.yaml`: checks configuration and surfaces, up to conditioning, and writes nothing.
+void add_validate(CLI::App& app, std::function<int()>& action);
+
 /// Adds the verb `model SURFACE -o OUT.hdf`: computes one surface into one model file.
 void add_model(CLI::App& app, std::function<int()>& action);
 

@@ -6,7 +6,7 @@
 namespace lumenline::cli_test {
 namespace {
 
-constexpr const char* kVerbs[] = {"run", "model", "browse", "phantom"};
+constexpr const char* kVerbs[] = {"run", "validate", "model", "browse", "phantom"};
 
 TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
     const Finished whole = run_lumenline({"--help"}, fresh_folder());
@@ -32,7 +32,7 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
 }
 
 TEST(Usage, HelpStatesTheExitStatus) {
-    for (const char* verb : {"run", "model", "phantom"})
+    for (const char* verb : {"run", "validate", "model", "phantom"})
         EXPECT_NE(run_lumenline({verb, "--help"}, fresh_folder()).out.find("Exit status"), std::string::npos) << verb;
     EXPECT_NE(run_lumenline({"--help"}, fresh_folder()).out.find("Exit status"), std::string::npos);
 }
@@ -60,6 +60,8 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"run", "c.yaml", "--threads", "0"}, "--threads"},
         {{"run", "c.yaml", "--threads", "many"}, "--threads"},
         {{"run", "c.yaml", "surplus"}, "surplus"},
+        {{"validate"}, "COHORT"},
+        {{"validate", "c.yaml", "surplus"}, "surplus"},
         {{"model"}, "SURFACE"},
         {{"model", "a.ply"}, "--output"},
         {{"model", "a.ply", "-o", "a.hdf", "--inlets=0,0,0"}, "--inlets"},

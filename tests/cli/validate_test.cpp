@@ -1,0 +1,52 @@
+// `lumenline validate`: a line per model, the exit status of a run, and nothing written.
+#include <gtest/gtest.h>
+
+#include "tests/cli/cohort_support.h"
+
+namespace lumenline::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Finished validate(const fs::path& folder) { return run_lumenline({"validate", "cohort.yaml"}, folder); }
+
+TEST(Validate, GoodCohortHasALinePerModelAndWritesNothing) {
+    const fs::path folder = small_cohort();
+    const Finished finished = validate(folder);
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    EXPECT_EQ(finished.err, "");
+    const std::vector<std::string> lines = lines_of(finished.out);
+    ASSERT_EQ(lines.size(), 6U) << finished.out;
+    const char* const ids[] = {"tube", "bend", "coil", "narrow"};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(lines[i].rfind(ids[i], 0), 0U) << lines[i];
+        EXPECT_NE(lines[i].find(" ok "), std::string::npos) << lines[i];
+        EXPECT_NE(lines[i].find("2 openings"), std::string::npos) << lines[i];
+    }
+    EXPECT_EQ(lines[5], "4 ok, 0 with warnings, 0 failed");
+    EXPECT_FALSE(fs::exists(folder / "results"));
+}
+
+TEST(Validate, BadSurfaceIsASentenceAndStatusOneAndTheOthersAreChecked) {
+    const fs::path folder = small_cohort();
+    write_text(folder / "bend.ply", "ply\nformat ascii 1.0\nelement vertex -1\n");
+    const Finished finished = validate(folder);
+    EXPECT_EQ(finished.status, 1) << finished.err;
+    const std::vector<std::string> lines = lines_of(finished.out);
+    ASSERT_EQ(lines.size(), 6U) << finished.out;
+    EXPECT_NE(lines[1].find("bend    failed   "), std::string::npos) << lines[1];
+    EXPECT_NE(lines[1].find("bend.ply, line 3:"), std::string::npos) << lines[1];
+    EXPECT_EQ(lines[5], "3 ok, 0 with warnings, 1 failed");
+}
+
+TEST(Validate, WrongConfigurationIsStatusTwo) {
+    const fs::path folder = small_cohort();
+    write_text(folder / "cohort.yaml", "cohort: c\nmodles: []\n");
+    const Finished finished = validate(folder);
+    EXPECT_EQ(finished.status, 2);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_NE(finished.err.find("modles"), std::string::npos) << finished.err;
+}
+
+}  // namespace
+}  // namespace lumenline::cli_test
