@@ -26,6 +26,7 @@ constexpr double kWindow = 0.5;                          // of the radius: half 
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
 constexpr int kRounds = 16;
+constexpr double kSag = 4e-4;         // of the radius: of the line's pieces, as long as they are not too many
 constexpr int kMostPieces = 4;        // of a segment
 constexpr int kSearchRounds = 2;      // of them with searches in all directions
 constexpr std::size_t kStagger = 3;   // nodes in turn look in directions turned by this part of the angle between two
@@ -336,7 +337,7 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         result.largest_stray = std::max(result.largest_stray,
                                         distance(problem_.nodes[i].position, nodes_[i].start) / nodes_[i].path_radius);
-        if (!nodes_[i].frozen || i + 1 < nodes_.size()) find_middle(i);
+        if (!nodes_[i].frozen || i + 1 < nodes_.size()) fill_in(i);
     }
     Finished line{path, {}, {}};
     if (shared_with_ != nullptr) {
@@ -358,14 +359,17 @@ void MedialRefiner::append(const RidgeNode& ridge, const Node& node, const Node*
     result.path_abscissa.push_back(node.path_abscissa);
     result.radius_error.push_back(node.radius_error);
     result.position_error.push_back(node.position_error);
-    if (next == nullptr || node.middle_radius <= 0) return;
-    result.line.append(node.middle, node.middle_radius);
-    result.path_abscissa.push_back(0.5 * (node.path_abscissa + next->path_abscissa));
-    result.radius_error.push_back(0.5 * (node.radius_error + next->radius_error));
-    result.position_error.push_back(0.5 * (node.position_error + next->position_error));
+    if (next == nullptr) return;
+    for (const Between& p : node.between) {
+        result.line.append(p.x, p.radius);
+        result.path_abscissa.push_back(std::lerp(node.path_abscissa, next->path_abscissa, p.share));
+        result.radius_error.push_back(std::lerp(node.radius_error, next->radius_error, p.share));
+        result.position_error.push_back(std::lerp(node.position_error, next->position_error, p.share));
+    }
 }
 
-void MedialRefiner::find_middle(std::size_t i) {
+void MedialRefiner::fill_in(std::size_t i) {
+    nodes_[i].between.clear();
     if (i == 0 || i + 2 >= nodes_.size()) return;
     const auto at_node = [this](std::size_t k) { return problem_.nodes[k].position; };
     const Vec3 a = at_node(i - 1), b = at_node(i), c = at_node(i + 1), d = at_node(i + 2);
@@ -374,22 +378,26 @@ void MedialRefiner::find_middle(std::size_t i) {
     // Tangents of the circles through three nodes each, times the segment's length.
     const Vec3 at_b = (bc / (ab + bc)) * ((bc / ab) * (b - a) + (ab / bc) * (c - b));
     const Vec3 at_c = (bc / (bc + cd)) * ((cd / bc) * (c - b) + (bc / cd) * (d - c));
-    const Vec3 x = 0.5 * (b + c) + 0.125 * (at_b - at_c);
-    const SurfaceFoot* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    const auto offer = [&](const SurfaceFoot& f) {
-        const double r = distance(x, f.point);
-        if (r >= least) return;
-        least = r;
-        nearest = &f;
-    };
-    for (const std::size_t node : {i, i + 1}) {
-        for (const SurfaceFoot& f : nodes_[node].own) offer(f);
-        for (const Contact& contact : nodes_[node].around) offer(contact.foot);
+    const double sag = 0.125 * norm(at_b - at_c) / nodes_[i].radius;
+    const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(sag / kSag))), 1, kMostPieces);
+    for (int k = 1; k < pieces; ++k) {
+        const double t = double{1} * k / pieces, u = 1 - t;
+        const Vec3 x = lerp(b, c, t * t * (3 - 2 * t)) + (t * u * u) * at_b - (t * t * u) * at_c;
+        const SurfaceFoot* nearest = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        const auto offer = [&](const SurfaceFoot& f) {
+            const double r = distance(x, f.point);
+            if (r >= least) return;
+            least = r;
+            nearest = &f;
+        };
+        for (const std::size_t node : {i, i + 1}) {
+            for (const SurfaceFoot& f : nodes_[node].own) offer(f);
+            for (const Contact& contact : nodes_[node].around) offer(contact.foot);
+        }
+        const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
+        nodes_[i].between.push_back({x, std::min(r, least), t});
     }
-    const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
-    nodes_[i].middle = x;
-    nodes_[i].middle_radius = std::min(r, least);
 }
 
 }  // namespace lumenline

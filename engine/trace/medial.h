@@ -46,6 +46,12 @@ private:
         TriangleId triangle;
         SurfaceFoot foot;
     };
+    /// A point of the curve between two nodes.
+    struct Between {
+        Vec3 x;
+        double radius = 0;  ///< [length]
+        double share = 0;   ///< of the way to the second node
+    };
     struct Node {
         Vec3 tangent;
         Vec3 start;  ///< on the path
@@ -54,8 +60,7 @@ private:
         double reach = 0;
         double moved = 0;                 ///< in the last round [length]
         bool frozen = false;              ///< of a stretch refined with an earlier line
-        Vec3 middle;                      ///< of the curve from it to the next node
-        double middle_radius = 0;         ///< there; 0 = none [length]
+        std::vector<Between> between;     ///< of the curve from it to the next node
         std::vector<Contact> around;      ///< one per direction
         std::vector<SurfaceFoot> own;     ///< its own feet
         std::vector<SurfaceFoot> before;  ///< those of earlier rounds
@@ -86,7 +91,7 @@ private:
     [[nodiscard]] double noise_level() const;
     [[nodiscard]] double sheet_likeness(std::size_t node) const;
     [[nodiscard]] double cost() const;
-    void find_middle(std::size_t node);
+    void fill_in(std::size_t node);
     void append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const;
 
     CurvedSurface curved_;

@@ -73,13 +73,15 @@ TEST_P(PhantomExample, LineIsNearTheAxis) {
 // stenosis is 0.01 h = 0.0016 a, of which the line takes about one standard deviation. On the elliptic section
 // (3/5) the medial axis is a sheet that a line on the complex crosses between Voronoi edges: its error is of first
 // order, 0.6 % in the literature's experiment and at most h^2 / a = 0.025 a anywhere. Bounds are about twice what
-// these lead to; a line that cut a bend or jumped between legs would miss them by a factor of a hundred.
+// these lead to. The inner wall of the hairpin bends within 0.04 a, a quarter of an edge: the curved surface there is
+// a guess, and the line's bend of length pi a may lie a thousandth of a farther in. A line that cut a bend or jumped
+// between legs would miss them by a factor of a hundred.
 INSTANTIATE_TEST_SUITE_P(Cohort, PhantomExample,
                          ::testing::Values(PhantomBounds{"elliptic_cylinder", 0.006, 0.025, 0.006, 0.012, 0.012},
                                            PhantomBounds{"torus_arc", 0.0003, 0.0015, 0.0006, 0.003, 0.001},
                                            PhantomBounds{"helix", 0.0003, 0.0015, 0.0006, 0.003, 0.001},
                                            PhantomBounds{"stenosis", 0.003, 0.01, 0.004, 0.008, 0.006},
-                                           PhantomBounds{"hairpin", 0.0003, 0.0015, 0.0006, 0.003, 0.001}),
+                                           PhantomBounds{"hairpin", 0.0003, 0.0015, 0.0006, 0.003, 0.004}),
                          [](const auto& tested) { return tested.param.id; });
 
 TEST(Examples, PhantomsComeAgainByteForByteFromTheirCommands) {

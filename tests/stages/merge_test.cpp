@@ -44,8 +44,10 @@ AxisLine line_of(const PhantomOptions& options) {
     const Phantom phantom = make_phantom(options);
     const PhantomTruth& truth = phantom.truth;
     const Surface surface = test::closed_surface(phantom);
+    TraceOptions on_the_complex;
+    on_the_complex.refine = Refinement::kPath;
     const test::Traced traced = test::trace_closed(surface, {truth.position(0.2031 * truth.total_length())},
-                                                   {truth.position(0.8117 * truth.total_length())});
+                                                   {truth.position(0.8117 * truth.total_length())}, on_the_complex);
     const Centerlines& lines = traced.lines;
     const AxisFrame frame = truth.frame(0);
     AxisLine line;
