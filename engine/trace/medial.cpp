@@ -13,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "engine/geometry/segment_cost.h"
 
@@ -21,11 +22,11 @@ namespace lumenline {
 namespace {
 
 constexpr double kEdgesPerStep = 1;
-constexpr double kLeastStep = 0.1, kLargestStep = 0.25;  // of the radius
-constexpr double kWindow = 0.5;                          // of the radius: half the chord that gives a tangent
+constexpr double kLeastStep = 0.1, kLargestStep = 0.4;  // of the radius
+constexpr double kWindow = 0.5;                         // of the radius: half the chord that gives a tangent
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
-constexpr int kRounds = 16;
+constexpr int kRounds = 4;
 constexpr double kSag = 4e-4;         // of the radius: of the line's pieces, as long as they are not too many
 constexpr int kMostPieces = 4;        // of a segment
 constexpr int kSearchRounds = 2;      // of them with searches in all directions
@@ -40,8 +41,7 @@ constexpr double kClearlyNearer = 3;  // of the wall's uncertainty
 constexpr double kLeastReach = 1e-4;  // of the radius
 constexpr double kLeastStretch = 1e-3;
 constexpr double kAccuracy = 1e-10, kRoughAccuracy = 1e-5;  // of the radius: of the finest and the roughest solution
-// No node needs to be found much better than the wall is known:
-constexpr double kAccuracyShare = 5e-4;  // of the wall's uncertainty, for the solution of one round
+constexpr double kAccuracyShare = 5e-4;  // of the wall's uncertainty (no need for better), for one round's solution
 constexpr double kRestShare = 5e-3;      // of the wall's uncertainty, for the rounds' end
 constexpr double kRest = 1e-6;           // of the radius: moves below it end the rounds
 
@@ -115,8 +115,7 @@ void MedialRefiner::resample(const Polyline& path, const LineEnd& start, const L
         problem_.nodes.push_back(ridge);
         nodes_.push_back(std::move(node));
         if (s >= whole) break;
-        const double step =
-            std::clamp(kEdgesPerStep * surface.median_edge, kLeastStep * ridge.radius, kLargestStep * ridge.radius);
+        const double step = step_at(ridge.radius);
         if (!(step > 0)) break;
         s = s + 1.5 * step < whole ? s + step : whole;
     }
@@ -153,13 +152,11 @@ void MedialRefiner::find_around(std::size_t i, bool search) {
     Node& node = nodes_[i];
     const RidgeNode& ridge = problem_.nodes[i];
     const double far = kLookAhead * node.radius;
-    if (search && i > 0) {
-        node.flat = nodes_[i - 1].flat;
-        node.triangle = nodes_[i - 1].triangle;
-    }
-    if (search)
+    if (search) {
+        if (i > 0) std::tie(node.flat, node.triangle) = std::tie(nodes_[i - 1].flat, nodes_[i - 1].triangle);
         node.around =
             i > 0 ? nodes_[i - 1].around : std::vector<Contact>(kDirections, Contact{node.flat, node.triangle, {}});
+    }
     for (std::size_t k = 0; k < kDirections; ++k) {
         const double turns = (static_cast<double>(k) + static_cast<double>(i % kStagger) / kStagger) / kDirections;
         const double angle = 2 * std::numbers::pi * turns;
@@ -371,8 +368,8 @@ void MedialRefiner::append(const RidgeNode& ridge, const Node& node, const Node*
 void MedialRefiner::fill_in(std::size_t i) {
     nodes_[i].between.clear();
     if (i == 0 || i + 2 >= nodes_.size()) return;
-    const auto at_node = [this](std::size_t k) { return problem_.nodes[k].position; };
-    const Vec3 a = at_node(i - 1), b = at_node(i), c = at_node(i + 1), d = at_node(i + 2);
+    const RidgeNode* node = &problem_.nodes[i];
+    const Vec3 a = node[-1].position, b = node[0].position, c = node[1].position, d = node[2].position;
     const double ab = distance(a, b), bc = distance(b, c), cd = distance(c, d);
     if (!(ab > 0 && bc > 0 && cd > 0)) return;
     // Tangents of the circles through three nodes each, times the segment's length.
@@ -391,9 +388,9 @@ void MedialRefiner::fill_in(std::size_t i) {
             least = r;
             nearest = &f;
         };
-        for (const std::size_t node : {i, i + 1}) {
-            for (const SurfaceFoot& f : nodes_[node].own) offer(f);
-            for (const Contact& contact : nodes_[node].around) offer(contact.foot);
+        for (const std::size_t j : {i, i + 1}) {
+            for (const SurfaceFoot& f : nodes_[j].own) offer(f);
+            for (const Contact& contact : nodes_[j].around) offer(contact.foot);
         }
         const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
         nodes_[i].between.push_back({x, std::min(r, least), t});

@@ -26,7 +26,7 @@ using Column = Eigen::Vector3d;
 constexpr int kMaxSteps = 60;
 constexpr double kToBoundary = 0.99;  // share of the way to the nearest bound that a step may go
 constexpr double kAtRest = 1e-7;      // of the radii: steps below it end the iteration
-constexpr double kMuFall = 0.15;
+constexpr double kMuFall = 0.05;
 constexpr double kRegular = 1e-13;  // of a block's trace, added to its diagonal: some rounding errors of its sums
 
 /// A bound in units of its node's radius: slack b + g.y + y.Hy/2 - beta q.
