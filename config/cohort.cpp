@@ -36,9 +36,20 @@ Enum enumerated(const std::optional<std::string>& name, Enum fallback, const std
 PipelineOptions read_options(const MapReader& top) {
     PipelineOptions options;
     const MapReader endpoints = top.section("endpoints");
-    options.endpoints.mode =
-        enumerated(endpoints.choice("mode"), options.endpoints.mode,
-                   std::array{EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kPoints}, mode_name);
+    std::optional<EndpointModes> modes;
+    for (const std::string& name : endpoints.choices("mode")) {
+        const EndpointMode mode =
+            enumerated(name, EndpointMode::kAuto,
+                       std::array{EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kCaps,
+                                  EndpointMode::kTips, EndpointMode::kPoints},
+                       mode_name);
+        modes = modes ? *modes | mode : EndpointModes(mode);
+    }
+    options.endpoints.mode = modes.value_or(options.endpoints.mode);
+    if (const auto rule = endpoints.text("inlet"))
+        options.endpoints.inlet_rules = parse_inlet_rules(endpoints.place(*endpoints.find("inlet")), *rule);
+    if (options.endpoints.inlet_rules == std::vector<InletRule>(1)) options.endpoints.inlet_rules.clear();
+    options.endpoints.tip_length = endpoints.number("tip_length").value_or(options.endpoints.tip_length);
 
     const MapReader condition = top.section("condition");
     ConditionOptions& c = options.condition;

@@ -71,6 +71,13 @@ void set_surface(ModelTask& task, const std::string& given, const std::filesyste
     task.surface_path = (folder / given).string();
 }
 
+/// What a model states of its inlets stands instead of what the cohort states.
+void state_inlets(ModelTask& task, std::vector<Vec3> inlets, std::vector<InletRule> rules) {
+    if (inlets.empty() && rules.empty()) return;
+    task.options.endpoints.inlets = std::move(inlets);
+    task.options.endpoints.inlet_rules = std::move(rules);
+}
+
 std::string_view or_missing(std::string_view text) { return text.empty() ? kMissing : text; }
 
 // ---- list
@@ -108,7 +115,8 @@ void read_list(const YamlNode& list, const std::filesystem::path& file, const Mo
         task.identity.side = model.text("side").value_or("");
         task.identity.structure = model.text("structure").value_or("");
         task.identity.group = model.text("group").value_or("");
-        task.options.endpoints.inlets = model.points("inlets");
+        auto [inlets, rules] = model.points_or_rules("inlets");
+        state_inlets(task, std::move(inlets), std::move(rules));
         task.options.endpoints.outlets = model.points("outlets");
         task.scale = model.number("scale").value_or(task.scale);
         task.identity.covariates = read_covariates(model);
@@ -197,7 +205,10 @@ ModelTask read_row(const TextTable& table, const TextTable::Row& row, const Colu
     task.identity.side = text("side", false);
     task.identity.structure = text("structure", false);
     task.identity.group = text("group", false);
-    task.options.endpoints.inlets = points("inlets");
+    if (const auto [place, value] = cell("inlets"); looks_like_rules(value))
+        state_inlets(task, {}, parse_inlet_rules(place, value));
+    else
+        state_inlets(task, points("inlets"), {});
     task.options.endpoints.outlets = points("outlets");
     const auto [scale_place, scale] = cell("scale");
     if (!scale.empty()) task.scale = parse_number(scale_place, scale, key_info("models.list[].scale"));

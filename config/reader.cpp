@@ -106,6 +106,25 @@ std::optional<std::string> MapReader::choice(std::string_view key) const {
     return parse_choice(place(*entry), scalar(*entry, spoken_list(choice_words(asked))).text, asked);
 }
 
+std::vector<std::string> MapReader::choices(std::string_view key) const {
+    const YamlEntry* entry = find(key);
+    if (entry == nullptr) return {};
+    if (entry->value->kind != YamlNode::Kind::kSequence) return {*choice(key)};
+    const KeyInfo& asked = info(key);
+    Place at_value = place(*entry);
+    std::vector<std::string> found;
+    for (const auto& item : entry->value->items) {
+        at_value.line = item->line;
+        if (item->kind != YamlNode::Kind::kScalar)
+            fail(at_value, fmt::format("must list {}, not {}", spoken_list(choice_words(asked)), kind_phrase(*item)));
+        std::string word = parse_choice(at_value, item->text, asked);
+        if (std::ranges::find(found, word) != found.end()) fail(at_value, fmt::format("lists '{}' twice", word));
+        found.push_back(std::move(word));
+    }
+    if (found.empty()) fail(at_value, fmt::format("must list at least one of {}", spoken_list(choice_words(asked))));
+    return found;
+}
+
 std::optional<double> MapReader::number(std::string_view key) const {
     const YamlEntry* entry = find(key);
     if (entry == nullptr) return std::nullopt;
@@ -160,6 +179,14 @@ std::vector<Vec3> MapReader::points(std::string_view key) const {
         points.push_back(point);
     }
     return points;
+}
+
+std::pair<std::vector<Vec3>, std::vector<InletRule>> MapReader::points_or_rules(std::string_view key) const {
+    const YamlEntry* entry = find(key);
+    const bool rules = entry != nullptr && entry->value->kind == YamlNode::Kind::kScalar &&
+                       looks_like_rules(entry->value->text);
+    if (rules) return {{}, parse_inlet_rules(place(*entry), entry->value->text)};
+    return {points(key), {}};
 }
 
 }  // namespace lumenline

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "config/document.h"
@@ -30,11 +31,14 @@ public:
 
     [[nodiscard]] std::optional<std::string> text(std::string_view key) const;  ///< scalar as written
     [[nodiscard]] std::optional<std::string> choice(std::string_view key) const;
+    [[nodiscard]] std::vector<std::string> choices(std::string_view key) const;  ///< one or a list; empty when absent
     [[nodiscard]] std::optional<double> number(std::string_view key) const;
     [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
     /// A whole number; the key's word for "let the program choose" gives 0.
     [[nodiscard]] std::optional<int> integer_or_word(std::string_view key) const;
     [[nodiscard]] std::vector<Vec3> points(std::string_view key) const;  ///< [[x, y, z], ...]; empty when absent
+    /// Points or, where the value is a text that starts with a letter, rules; both empty when absent.
+    [[nodiscard]] std::pair<std::vector<Vec3>, std::vector<InletRule>> points_or_rules(std::string_view key) const;
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] Place place(const YamlEntry& entry) const;  ///< of the entry's value

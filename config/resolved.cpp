@@ -1,5 +1,5 @@
 // Texts are always written in quotes: an id `null` or `1e3` must come back as the same text. Tasks share
-// every option but their points, so the first task speaks for all.
+// every option but their inlets and outlets, so the first task speaks for all.
 
 #include <yaml-cpp/emitter.h>
 #include <yaml-cpp/emittermanip.h>
@@ -46,7 +46,13 @@ void write_model(YAML::Emitter& out, const ModelTask& task) {
     write_quoted(out, "side", who.side);
     write_quoted(out, "structure", who.structure);
     write_quoted(out, "group", who.group);
-    write_points(out, "inlets", task.options.endpoints.inlets);
+    std::string rules;
+    for (const InletRule& rule : task.options.endpoints.inlet_rules)
+        rules.append(rules.empty() ? "" : "; ").append(rule_text(rule));
+    if (rules.empty())
+        write_points(out, "inlets", task.options.endpoints.inlets);
+    else
+        write_quoted(out, "inlets", rules);
     write_points(out, "outlets", task.options.endpoints.outlets);
     write(out, "scale", exact_text(task.scale));
     write_section(out, "covariates");
@@ -81,7 +87,13 @@ std::string resolved_text(const CohortConfig& config) {
     for (const ModelTask& task : config.tasks) write_model(out, task);
     out << YAML::EndSeq << YAML::EndMap;
     write_section(out, "endpoints");
-    write(out, "mode", mode_name(options.endpoints.mode));
+    out << YAML::Key << "mode" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const EndpointMode mode : {EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kCaps,
+                                    EndpointMode::kTips, EndpointMode::kPoints})
+        if (options.endpoints.mode.has(mode)) out << std::string(mode_name(mode));
+    out << YAML::EndSeq;
+    write(out, "inlet", "largest");  // what differs stands with the models
+    write(out, "tip_length", exact_text(options.endpoints.tip_length));
     out << YAML::EndMap;
     write_section(out, "condition");
     write(out, "weld_tolerance", exact_text(options.condition.weld_tolerance));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -133,6 +134,72 @@ std::vector<Vec3> parse_points(const Place& place, std::string_view cell) {
         points.push_back(p);
     }
     return points;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kRuleWords{"largest", "smallest", "highest",  "lowest",
+                                                     "nearest", "boundary", "point"};
+
+InletRule parse_inlet_rule(const Place& place, std::string_view text) {
+    const std::size_t blank = std::min(text.find_first_of(" \t["), text.size());
+    const std::string_view word = text.substr(0, blank);
+    std::string_view rest = trimmed(text.substr(blank));
+    const auto known = std::ranges::find(kRuleWords, word);
+    if (known == kRuleWords.end()) {
+        const std::string_view nearest = nearest_word(word, kRuleWords);
+        const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+        fail(place, fmt::format("must say {}, not {}{}", spoken_list(kRuleWords), in_quotes(text), hint));
+    }
+    InletRule rule;
+    rule.kind = static_cast<InletRule::Kind>(known - kRuleWords.begin());
+    switch (rule.kind) {
+        case InletRule::Kind::kLargest:
+        case InletRule::Kind::kSmallest:
+            if (!rest.empty()) fail(place, fmt::format("'{}' takes nothing behind it, not {}", word, in_quotes(rest)));
+            break;
+        case InletRule::Kind::kHighest:
+        case InletRule::Kind::kLowest:
+            if (rest != "x" && rest != "y" && rest != "z")
+                fail(place, fmt::format("'{}' takes an axis x, y or z, not {}", word, in_quotes(rest)));
+            rule.axis = rest[0] - 'x';
+            break;
+        case InletRule::Kind::kBoundary: {
+            constexpr KeyInfo kNumber{"", "integer", "", "", "", {1, 1e6, false}};
+            rule.number = static_cast<std::size_t>(parse_integer(place, rest, kNumber));
+            break;
+        }
+        case InletRule::Kind::kNearest:
+        case InletRule::Kind::kPoint: {
+            if (rest.size() < 2 || rest.front() != '[' || rest.back() != ']')
+                fail(place, fmt::format("'{}' takes a point [x, y, z], not {}", word, in_quotes(rest)));
+            rest.remove_prefix(1);
+            rest.remove_suffix(1);
+            const std::vector<Vec3> points = parse_points(place, rest);
+            if (points.size() != 1) fail(place, fmt::format("'{}' takes one point, not {}", word, points.size()));
+            rule.point = points[0];
+            break;
+        }
+    }
+    return rule;
+}
+
+}  // namespace
+
+std::vector<InletRule> parse_inlet_rules(const Place& place, std::string_view text) {
+    std::vector<InletRule> rules;
+    for (bool more = true; more;) {
+        const std::size_t semicolon = std::min(text.find(';'), text.size());
+        rules.push_back(parse_inlet_rule(place, trimmed(text.substr(0, semicolon))));
+        more = semicolon < text.size();
+        if (more) text.remove_prefix(semicolon + 1);
+    }
+    return rules;
+}
+
+bool looks_like_rules(std::string_view text) {
+    text = trimmed(text);
+    return !text.empty() && is_letter(text[0]);
 }
 
 std::string parse_choice(const Place& place, std::string_view text, const KeyInfo& key) {

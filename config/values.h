@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/keys.h"
+#include "engine/core/options.h"
 #include "engine/core/vec3.h"
 
 namespace lumenline {
@@ -39,6 +40,13 @@ double parse_coordinate(const Place& place, std::string_view text);
 
 /// Points of a table's cell: "x,y,z", several separated by ";".
 std::vector<Vec3> parse_points(const Place& place, std::string_view cell);
+
+/// Rules for inlets, ';' between them: largest, smallest, highest x|y|z, lowest x|y|z, nearest [x, y, z],
+/// boundary N, point [x, y, z].
+std::vector<InletRule> parse_inlet_rules(const Place& place, std::string_view text);
+
+/// Whether a text is meant as rules: it starts with a letter, as no point does.
+bool looks_like_rules(std::string_view text);
 
 /// One of the key's choices; the hint names the nearest.
 std::string parse_choice(const Place& place, std::string_view text, const KeyInfo& key);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,8 @@
 #include <memory>
 #include <ostream>
 
+#include "config/cohort.h"
+#include "config/values.h"
 #include "engine/cli/model_io.h"
 #include "engine/cli/run.h"
 #include "engine/cli/standard_output.h"
@@ -23,6 +26,7 @@ struct ModelArguments {
     ModelTask task;
     std::string output;
     std::vector<std::string> inlets, outlets;
+    std::vector<EndpointMode> modes;
     std::string precision = "float32";
     int threads = 0;
     bool skip_self_intersections = false;
@@ -38,6 +42,21 @@ Vec3 parse_point(const std::string& text, const std::string& option) {
     return p;
 }
 
+/// An inlet as a point or by rules.
+void state_inlet(EndpointOptions& endpoints, const std::string& text) {
+    if (!looks_like_rules(text)) {
+        endpoints.inlets.push_back(parse_point(text, "--inlet"));
+        return;
+    }
+    try {
+        for (const InletRule& rule : parse_inlet_rules({{}, 0, "the rule"}, text))
+            endpoints.inlet_rules.push_back(rule);
+    } catch (const ConfigError& error) {
+        const std::string sentence = error.what();
+        throw CLI::ValidationError("--inlet", sentence.substr(std::min(sentence.find("the rule"), sentence.size())));
+    }
+}
+
 void print_result(const ModelRecord& record, const std::string& output) {
     to_standard_output([&](std::ostream& out) {
         print_models(out, {summarize(record)});
@@ -50,10 +69,11 @@ void print_result(const ModelRecord& record, const std::string& output) {
 
 int run(ModelArguments arguments) {
     ModelTask& task = arguments.task;
-    for (const std::string& text : arguments.inlets)
-        task.options.endpoints.inlets.push_back(parse_point(text, "--inlet"));
+    for (const std::string& text : arguments.inlets) state_inlet(task.options.endpoints, text);
     for (const std::string& text : arguments.outlets)
         task.options.endpoints.outlets.push_back(parse_point(text, "--outlet"));
+    if (!arguments.modes.empty()) task.options.endpoints.mode = arguments.modes.front();
+    for (const EndpointMode mode : arguments.modes) task.options.endpoints.mode |= mode;
     task.options.condition.check_self_intersections = !arguments.skip_self_intersections;
     task.options.characterize = !arguments.skip_characterization;
     task.identity.source_file = task.surface_path;
@@ -86,16 +106,28 @@ int run(ModelArguments arguments) {
 
 void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     PipelineOptions& o = arguments.task.options;
-    const std::map<std::string, EndpointMode> modes{
-        {"auto", EndpointMode::kAuto}, {"boundaries", EndpointMode::kBoundaries}, {"points", EndpointMode::kPoints}};
-    const std::map<std::string, Refinement> refinements{{"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}};
+    const std::map<std::string, EndpointMode> modes{{"auto", EndpointMode::kAuto},
+                                                    {"boundaries", EndpointMode::kBoundaries},
+                                                    {"caps", EndpointMode::kCaps},
+                                                    {"tips", EndpointMode::kTips},
+                                                    {"points", EndpointMode::kPoints}};
+    const std::map<std::string, Refinement> refinements{
+        {"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}};
     const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
-    verb.add_option("--mode", o.endpoints.mode, "How endpoints are found: auto, boundaries, points")
+    verb.add_option("--mode", arguments.modes,
+                    "Where ends come from: auto, boundaries, caps, tips, points; several with commas between them")
+        ->delimiter(',')
         ->transform(CLI::CheckedTransformer(modes))
         ->default_str("auto");
-    verb.add_option("--refine", o.trace.refine, "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth surface's axis)")
+    verb.add_option("--tip-length", o.endpoints.tip_length,
+                    "Least length of a blind branch beyond the wall of its parent, in its radii")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    verb.add_option("--refine", o.trace.refine,
+                    "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth "
+                    "surface's axis)")
         ->transform(CLI::CheckedTransformer(refinements))
-        ->default_str("path");
+        ->default_str("medial");
     verb.add_option("--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all")
         ->transform(CLI::CheckedTransformer(pairs))
         ->default_str("nearest");
@@ -120,7 +152,8 @@ void add_model(CLI::App& app, std::function<int()>& action) {
     CLI::App* verb = app.add_subcommand("model", "Compute one surface into one model file");
     verb->add_option("SURFACE", task.surface_path, "Triangle surface: STL, PLY, OBJ, OFF, VTP, legacy VTK")->required();
     verb->add_option("-o,--output", arguments->output, "Model file to write; .hdf opens in ParaView")->required();
-    verb->add_option("--inlet", arguments->inlets, "Inlet point X,Y,Z; may be repeated")->take_all();
+    verb->add_option("--inlet", arguments->inlets, "Inlet point X,Y,Z, or a rule such as 'highest z'; may be repeated")
+        ->take_all();
     verb->add_option("--outlet", arguments->outlets, "Outlet point X,Y,Z; may be repeated")->take_all();
     verb->add_option("--scale", task.scale, "Factor for the file's coordinates")->capture_default_str();
     verb->add_option("--length-unit", task.identity.length_unit, "Unit after scaling, for the archive")
@@ -135,6 +168,8 @@ void add_model(CLI::App& app, std::function<int()>& action) {
     add_stage_options(*verb, *arguments);
     verb->footer(
         "Points are in the unit after scaling. Write negative coordinates as --inlet=-1,2,3.\n"
+        "Rules for inlets: largest, smallest, highest x|y|z, lowest x|y|z, nearest [x,y,z], boundary N, point "
+        "[x,y,z].\n"
         "Exit status: 0 ok or warning, 1 the model failed, 2 usage error, 3 stopped.");
     verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }

@@ -9,6 +9,7 @@
 #include "engine/condition/components.h"
 #include "engine/condition/crossings.h"
 #include "engine/condition/finish.h"
+#include "engine/condition/flat_caps.h"
 #include "engine/condition/holes.h"
 #include "engine/condition/orient.h"
 #include "engine/condition/wall_topology.h"
@@ -94,7 +95,11 @@ WallMesh prepare_wall(const TriangleSoup& soup, const ConditionOptions& options,
 Surface condition_surface(const TriangleSoup& soup, const ConditionOptions& options, StageContext& context) {
     assert(options.weld_tolerance >= 0 && options.extension_radii >= 0);
     WallTopology topology;
-    const WallMesh wall = prepare_wall(soup, options, topology, context);
+    WallMesh wall = prepare_wall(soup, options, topology, context);
+    std::vector<Vec3> cap_rims;
+    if (options.flat_caps == FlatCaps::kOpen ||
+        (options.flat_caps == FlatCaps::kOpenIfClosed && has_no_opening(topology)))
+        cap_rims = open_flat_caps(wall, topology, soup, context);
     context.check_cancelled();
     const double edge = median_edge(wall);
     const std::vector<FilledHole> holes = fill_tiny_holes(wall, edge, topology.loops, context);
@@ -116,6 +121,7 @@ Surface condition_surface(const TriangleSoup& soup, const ConditionOptions& opti
     surface.diagonal = bounding_diagonal(wall.points);
     surface.median_edge = edge;
     compute_normals(surface, context);
+    mark_flat_caps(surface, cap_rims);
     return std::move(surface);
 }
 

@@ -9,10 +9,10 @@
 
 namespace lumenline {
 
-enum class EndpointKind : std::uint8_t { kBoundary, kPoint };
+enum class EndpointKind : std::uint8_t { kBoundary, kPoint, kTip, kCap };
 enum class EndpointRole : std::uint8_t { kInlet, kOutlet };
 
-std::string_view kind_name(EndpointKind kind);  ///< "boundary" | "point"
+std::string_view kind_name(EndpointKind kind);  ///< "boundary" | "point" | "tip" | "cap"
 std::string_view role_name(EndpointRole role);  ///< "inlet" | "outlet"
 
 /// An arrival time fixed before the march, or the cost of a step onto the complex.
@@ -23,12 +23,12 @@ struct Seed {
 
 /// An end of the vessel tree. The inlet is the tree's root, whatever the direction of flow.
 struct Endpoint {
-    Vec3 point;         ///< centre of the opening, or the given point [length]
+    Vec3 point;         ///< centre of the opening, the given point, or the axis inside of a tip [length]
     Vec3 normal;        ///< unit, out of the lumen; zero for a given point
-    double radius = 0;  ///< of the opening's circle of equal area, or the ball radius at a given point [length]
+    double radius = 0;  ///< of the opening's circle of equal area, or the ball radius at a point or tip [length]
     EndpointKind kind = EndpointKind::kBoundary;
     EndpointRole role = EndpointRole::kOutlet;
-    OpeningId opening;  ///< none for a given point
+    OpeningId opening;  ///< none for a point or tip
 
     Vec3 anchor;                             ///< the point on the complex where lines start or end [length]
     double anchor_radius = 0;                ///< ball radius there [length]

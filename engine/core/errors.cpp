@@ -46,7 +46,10 @@ std::string_view severity_name(Severity severity) {
     return kNames.at(static_cast<std::size_t>(severity));
 }
 
-std::string_view kind_name(EndpointKind kind) { return kind == EndpointKind::kBoundary ? "boundary" : "point"; }
+std::string_view kind_name(EndpointKind kind) {
+    static constexpr std::array<std::string_view, 4> kNames{"boundary", "point", "tip", "cap"};
+    return kNames.at(static_cast<std::size_t>(kind));
+}
 
 std::string_view role_name(EndpointRole role) { return role == EndpointRole::kInlet ? "inlet" : "outlet"; }
 

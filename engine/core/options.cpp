@@ -7,8 +7,34 @@
 namespace lumenline {
 
 std::string_view mode_name(EndpointMode mode) {
-    static constexpr std::array<std::string_view, 3> kNames{"auto", "boundaries", "points"};
+    static constexpr std::array<std::string_view, 5> kNames{"auto", "boundaries", "caps", "tips", "points"};
     return kNames.at(static_cast<std::size_t>(mode));
+}
+
+std::string modes_text(EndpointModes modes) {
+    std::string text;
+    for (const EndpointMode mode : {EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kCaps,
+                                    EndpointMode::kTips, EndpointMode::kPoints})
+        if (modes.has(mode)) text.append(text.empty() ? "" : ",").append(mode_name(mode));
+    return text;
+}
+
+std::string rule_text(const InletRule& rule) {
+    const auto bracketed = [](std::string word, Vec3 p) {
+        for (int i = 0; i < 3; ++i) word.append(i == 0 ? " [" : ", ").append(exact_text(p[i]));
+        return word.append("]");
+    };
+    const char axis = "xyz"[rule.axis];
+    switch (rule.kind) {
+        case InletRule::Kind::kLargest: return "largest";
+        case InletRule::Kind::kSmallest: return "smallest";
+        case InletRule::Kind::kHighest: return std::string("highest ") + axis;
+        case InletRule::Kind::kLowest: return std::string("lowest ") + axis;
+        case InletRule::Kind::kNearest: return bracketed("nearest", rule.point);
+        case InletRule::Kind::kBoundary: return "boundary " + std::to_string(rule.number);
+        case InletRule::Kind::kPoint: return bracketed("point", rule.point);
+    }
+    return "";
 }
 
 std::string_view refinement_name(Refinement refinement) {
@@ -22,7 +48,7 @@ namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
-    "condition.version=1\nvoronoi.version=2\nendpoints.version=1\neikonal.version=1\ntrace.version=2\n"
+    "condition.version=1\nvoronoi.version=2\nendpoints.version=2\neikonal.version=1\ntrace.version=2\n"
     "characterize.version=1\n";
 
 std::string points_text(const std::vector<Vec3>& points) {
@@ -44,9 +70,13 @@ std::string canonical_text(const ModelTask& task) {
     line("condition.extension_radii", exact_text(o.condition.extension_radii));
     line("condition.check_self_intersections", o.condition.check_self_intersections ? "true" : "false");
     line("voronoi.merge_tolerance", exact_text(o.voronoi.merge_tolerance));
-    line("endpoints.mode", mode_name(o.endpoints.mode));
+    line("endpoints.mode", modes_text(o.endpoints.mode));
     line("endpoints.inlets", points_text(o.endpoints.inlets));
     line("endpoints.outlets", points_text(o.endpoints.outlets));
+    std::string rules;
+    for (const InletRule& rule : o.endpoints.inlet_rules) rules += rule_text(rule) + ";";
+    line("endpoints.inlet", rules);
+    line("endpoints.tip_length", exact_text(o.endpoints.tip_length));
     line("centerlines.refine", refinement_name(o.trace.refine));
     line("centerlines.pairs", pairs_name(o.trace.pairs));
     line("characterize", o.characterize ? "true" : "false");

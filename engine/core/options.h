@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,11 +11,19 @@
 
 namespace lumenline {
 
+/// What becomes of triangles that close the flat end of a vessel.
+enum class FlatCaps : std::uint8_t {
+    kKeep,          ///< they are wall
+    kOpenIfClosed,  ///< taken off where the surface has no opening
+    kOpen,          ///< taken off
+};
+
 /// Options of engine/condition.
 struct ConditionOptions {
     double weld_tolerance = 1e-7;  ///< vertices closer than this share of the bounding box's diagonal become one
     double extension_radii = 1.2;  ///< openings are extended by this many of their radii; 0 = plain caps
     bool check_self_intersections = true;
+    FlatCaps flat_caps = FlatCaps::kKeep;  ///< of a pipeline: what its endpoint modes ask for
 };
 
 /// Options of engine/voronoi.
@@ -22,18 +31,60 @@ struct VoronoiOptions {
     double merge_tolerance = 1e-9;  ///< Voronoi vertices closer than this share of their ball radius become one
 };
 
-/// How inlets and outlets are found.
+/// Where the ends of a model come from.
 enum class EndpointMode : std::uint8_t {
-    kAuto,        ///< points if any are given and the surface is closed, else boundaries
+    kAuto,        ///< openings; on a closed surface flat caps; without any, the given points, else blind tips
     kBoundaries,  ///< openings of the surface
+    kCaps,        ///< flat caps, taken off
+    kTips,        ///< blind ends
     kPoints,      ///< the given points only
+};
+
+/// One mode or several at once: a model may have openings and blind tips.
+class EndpointModes {
+public:
+    constexpr EndpointModes(EndpointMode mode) : bits_(bit(mode)) {}  // NOLINT: one mode is a set of one
+
+    [[nodiscard]] constexpr bool has(EndpointMode mode) const { return (bits_ & bit(mode)) != 0; }
+    constexpr EndpointModes& operator|=(EndpointModes other) {
+        bits_ |= other.bits_;
+        return *this;
+    }
+    constexpr bool operator==(const EndpointModes&) const = default;
+
+private:
+    static constexpr unsigned bit(EndpointMode mode) { return 1U << static_cast<unsigned>(mode); }
+    unsigned bits_;
+};
+
+constexpr EndpointModes operator|(EndpointModes a, EndpointModes b) { return a |= b; }
+
+/// One way to say which end is an inlet.
+struct InletRule {
+    enum class Kind : std::uint8_t {
+        kLargest,   ///< the end of largest radius
+        kSmallest,  ///< the end of least radius
+        kHighest,   ///< the end whose coordinate along `axis` is greatest
+        kLowest,    ///< the end whose coordinate along `axis` is least
+        kNearest,   ///< the end nearest to `point`
+        kBoundary,  ///< opening `number` by descending area, from 1
+        kPoint,     ///< `point` itself, even next to an opening
+    };
+    Kind kind = Kind::kLargest;
+    int axis = 2;            ///< 0 = x
+    std::size_t number = 1;  ///< of an opening
+    Vec3 point;              ///< [length]
+
+    bool operator==(const InletRule&) const = default;
 };
 
 /// Inlets and outlets of one model as the user states them.
 struct EndpointOptions {
-    EndpointMode mode = EndpointMode::kAuto;
-    std::vector<Vec3> inlets;   ///< with boundaries: the opening nearest to each is an inlet; empty = the largest
-    std::vector<Vec3> outlets;  ///< with boundaries: the openings to use; empty = all that are no inlets
+    EndpointModes mode = EndpointMode::kAuto;
+    std::vector<Vec3> inlets;   ///< the opening nearest to each is an inlet, or the point itself where there is none
+    std::vector<Vec3> outlets;  ///< in the same way, the outlets to use; empty = all ends that are no inlets
+    std::vector<InletRule> inlet_rules = {};  ///< one inlet each, beside `inlets`; none of both = the largest end
+    double tip_length = 3;  ///< least length of a blind branch beyond the wall of its parent [local radii]
 };
 
 /// How a centerline is made from the arrival times.
@@ -72,7 +123,10 @@ struct ModelTask {
     PipelineOptions options;
 };
 
-std::string_view mode_name(EndpointMode mode);            ///< "auto" | "boundaries" | "points"
+std::string_view mode_name(EndpointMode mode);  ///< "auto" | "boundaries" | "caps" | "tips" | "points"
+std::string modes_text(EndpointModes modes);    ///< the names with commas between them
+/// As a configuration states the rule: "largest", "highest z", "nearest [1, 2, 3]", "boundary 2", ...
+std::string rule_text(const InletRule& rule);
 std::string_view refinement_name(Refinement refinement);  ///< "none" | "path" | "medial"
 std::string_view pairs_name(Pairs pairs);                 ///< "nearest" | "all"
 

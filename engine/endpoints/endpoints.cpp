@@ -1,188 +1,239 @@
-// Openings and points become endpoints in one list of wishes; only the anchoring differs.
+// The modes give a list of ends. Given points and rules take ends from it, and what is left over becomes
+// outlets. Openings are anchored only when they are used.
 #include "engine/endpoints/endpoints.h"
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/core/text.h"
-#include "engine/endpoints/anchor.h"
+#include "engine/endpoints/ends.h"
+#include "engine/endpoints/roles.h"
+#include "engine/endpoints/tips.h"
 
 namespace lumenline {
 
 namespace {
 
-constexpr double kOutsideShare = 0.25;  // of the local radius
-constexpr double kRivalShare = 0.1;     // of the local radius
-constexpr double kOffAxisShare = 0.1;   // of the local radius
-constexpr double kClearLargest = 1.2;   // ratio of radii of the largest opening to the second
-
-[[noreturn]] void fail(ErrorCode code, const std::string& sentence) {
-    throw StageError(Stage::kEndpoints, code, sentence);
-}
-
-/// Least distance from the opening's centre to its boundary loop.
-double inner_radius(const Surface& surface, const Opening& opening) {
-    double least = opening.radius;
-    for (const SiteId s : opening.loop) {
-        const Vec3 d = surface.points[at(s)] - opening.point;
-        least = std::min(least, norm(d - dot(d, opening.normal) * opening.normal));
-    }
-    return least;
-}
-
-/// The balls on the axis of a capped tube reach its cap from one inner radius before it. The anchor
-/// is halfway between that place and the opening's plane, or at that place if it lies within.
-double anchor_height(const Surface& surface, const Opening& opening) {
-    const double reach = opening.extension_length - inner_radius(surface, opening);
-    return reach > 0 ? 0.5 * reach : reach;
-}
-
-Endpoint from_opening(const Surface& surface, const VoronoiComplex& complex, OpeningId id, EndpointRole role) {
-    const Opening& opening = surface.openings[at(id)];
-    Endpoint e;
-    e.point = opening.point;
-    e.normal = opening.normal;
-    e.radius = opening.radius;
-    e.kind = EndpointKind::kBoundary;
-    e.role = role;
-    e.opening = id;
-    const Vec3 axis_point = opening.point + anchor_height(surface, opening) * opening.normal;
-    anchor_at_point(surface, complex, nearest_on_complex(surface, complex, axis_point), e);
-    // The centroid of a concave or lopsided section is not on its medial axis: then take the deepest ball around it.
-    if (distance(e.anchor, axis_point) > kOffAxisShare * e.anchor_radius) {
-        e.seeds.clear();
-        anchor_at_vertex(complex, deepest_vertex(complex, axis_point, kRivalShare).vertex, e);
-    }
-    return e;
-}
-
-Endpoint from_point(const VoronoiComplex& complex, Vec3 point, EndpointRole role) {
-    const std::string name = std::string(role_name(role)) + " point " + short_text(point);
-    const DeepestVertex deepest = deepest_vertex(complex, point, kRivalShare);
-    Endpoint e;
-    e.point = point;
-    e.kind = EndpointKind::kPoint;
-    e.role = role;
-    anchor_at_vertex(complex, deepest.vertex, e);
-    e.radius = e.anchor_radius;
-    if (deepest.depth < -kOutsideShare * e.anchor_radius)
-        fail(ErrorCode::kEndpointOutside, "the " + name + " is " + short_text(-deepest.depth) +
-                                              " outside of the nearest maximal ball, centre " + short_text(e.anchor) +
-                                              ", radius " + short_text(e.anchor_radius) +
-                                              "; at most a quarter of the radius is accepted: move the point into the "
-                                              "lumen (are its units the surface's?)");
-    if (!deepest.rival.is_none())
-        fail(ErrorCode::kEndpointAmbiguous,
-             "the " + name + " lies between two branches, with balls at " + short_text(e.anchor) + " and " +
-                 short_text(complex.vertices[at(deepest.rival)]) + ": move it into the one that is meant");
-    return e;
-}
-
-/// The opening that a point means: the nearest whose centre is within one of its radii.
-OpeningId opening_at(const Surface& surface, Vec3 point) {
-    OpeningId best;
-    double least = 1;
-    for (std::size_t i = 0; i < surface.openings.size(); ++i) {
-        const double share = distance(surface.openings[i].point, point) / surface.openings[i].radius;
-        if (share < least) {
-            least = share;
-            best = OpeningId(i);
-        }
-    }
-    return best;
-}
+constexpr double kOpeningReach = 1;  // radii of an opening within which a point means it
+constexpr double kTipReach = 3;      // the same for a tip
 
 class Finder {
 public:
-    Finder(const Surface& surface, const VoronoiComplex& complex, const EndpointOptions& options)
-        : surface_(surface), complex_(complex), options_(options), taken_(surface.openings.size(), false) {}
+    Finder(const Surface& surface, const VoronoiComplex& complex, const EndpointOptions& options, StageContext& context)
+        : surface_(surface), complex_(complex), options_(options), context_(context) {}
 
-    Endpoints run(StageContext& context) {
-        const bool closed = surface_.openings.empty();
-        if (closed && options_.mode == EndpointMode::kBoundaries)
-            fail(ErrorCode::kEndpointsMissing,
-                 "the surface is closed: it has no openings; give its inlet and outlets as points");
-        if ((closed || options_.mode == EndpointMode::kPoints) && (options_.inlets.empty() || options_.outlets.empty()))
-            fail(ErrorCode::kEndpointsMissing, std::string(closed ? "the surface is closed and has no openings"
-                                                                  : "endpoints are to be given as points") +
-                                                   ", but " + (options_.inlets.empty() ? "no inlet" : "no outlet") +
-                                                   " point is given: state `inlets` and `outlets` for this model");
-
-        for (const Vec3& p : options_.inlets) add_wish(p, EndpointRole::kInlet);
-        if (options_.inlets.empty()) add_largest(context);
-        const std::size_t inlet_count = endpoints_.size();
-        for (const Vec3& p : options_.outlets) add_wish(p, EndpointRole::kOutlet);
-        if (options_.outlets.empty())
-            for (std::size_t i = 0; i < surface_.openings.size(); ++i)
-                if (!taken_[i])
-                    endpoints_.push_back(from_opening(surface_, complex_, OpeningId(i), EndpointRole::kOutlet));
-        if (endpoints_.size() == inlet_count)
-            fail(ErrorCode::kNoOutlet, "there is no outlet: the surface has " +
-                                           counted(surface_.openings.size(), "opening") +
-                                           ", all of them inlets; a centerline needs an inlet and an outlet");
-        refuse_shared_anchors();
-        return std::move(endpoints_);
+    Endpoints run() {
+        find_ends();
+        refuse_missing();
+        for (const Vec3& p : options_.inlets) inlets_.push_back(take_wish(p, EndpointRole::kInlet));
+        Endpoints outlets;
+        for (const Vec3& p : options_.outlets) outlets.push_back(take_wish(p, EndpointRole::kOutlet));
+        const bool points_only = options_.mode == EndpointMode::kPoints;
+        if (points_only) {  // rules pick among the points
+            ends_ = std::move(outlets);
+            taken_.assign(ends_.size(), false);
+        }
+        apply_rules();
+        if (points_only || options_.outlets.empty()) outlets = found_outlets(!points_only);
+        if (outlets.empty())
+            refuse_endpoints(ErrorCode::kNoOutlet, "there is no outlet: the surface has " +
+                                                       counted(surface_.openings.size(), "opening") + " and " +
+                                                       counted(ends_.size(), "end") +
+                                                       " to choose from, all of them inlets; a centerline needs an "
+                                                       "inlet and an outlet");
+        return joined(std::move(outlets));
     }
 
 private:
-    void add_wish(Vec3 point, EndpointRole role) {
-        const OpeningId opening = options_.mode == EndpointMode::kPoints ? OpeningId() : opening_at(surface_, point);
-        if (opening.is_none()) {
-            if (options_.mode == EndpointMode::kBoundaries)
-                fail(ErrorCode::kEndpointOutside, "no opening has its centre within one of its radii of the " +
-                                                      std::string(role_name(role)) + " point " + short_text(point));
-            endpoints_.push_back(from_point(complex_, point, role));
+    [[nodiscard]] bool has(EndpointMode mode) const { return options_.mode.has(mode); }
+
+    [[nodiscard]] bool wants_tips() const {
+        if (has(EndpointMode::kTips)) return true;
+        return has(EndpointMode::kAuto) && surface_.openings.empty() &&
+               (options_.inlets.empty() || options_.outlets.empty());
+    }
+
+    void find_ends() {
+        for (std::size_t i = 0; i < surface_.openings.size(); ++i) {
+            const EndpointMode wanted = surface_.openings[i].flat_cap ? EndpointMode::kCaps : EndpointMode::kBoundaries;
+            if (has(EndpointMode::kAuto) || has(wanted)) ends_.push_back(end_of_opening(surface_, OpeningId(i)));
+        }
+        if (wants_tips())
+            for (const Tip& tip : find_tips(surface_, complex_, options_.tip_length, context_))
+                ends_.push_back(endpoint_at_tip(complex_, tip));
+        taken_.assign(ends_.size(), false);
+    }
+
+    /// Refuses what can have no centerline: too few ends, and points that are asked for but not given.
+    void refuse_missing() const {
+        const bool by_rule = !options_.inlet_rules.empty();
+        if (options_.mode == EndpointMode::kPoints) {
+            if ((options_.inlets.empty() && !by_rule) || options_.outlets.empty())
+                refuse_endpoints(ErrorCode::kEndpointsMissing,
+                                 std::string("endpoints are to be given as points, but ") +
+                                     (options_.outlets.empty() ? "no outlet" : "no inlet") +
+                                     " point is given: state `inlets` and `outlets` for this model");
             return;
         }
-        if (taken_[at(opening)])
-            fail(ErrorCode::kEndpointAmbiguous, "two of the given points mean the same opening at " +
-                                                    short_text(surface_.openings[at(opening)].point));
-        taken_[at(opening)] = true;
-        endpoints_.push_back(from_opening(surface_, complex_, opening, role));
+        if (!ends_.empty()) return;
+        if (accepts_points() && !options_.inlets.empty() && !options_.outlets.empty()) return;
+        std::string missing = "the surface is closed: it has no openings";
+        if (has(EndpointMode::kCaps) || has(EndpointMode::kAuto)) missing += ", no flat caps";
+        if (wants_tips()) missing += ", no blind end longer than " + short_text(options_.tip_length) + " of its radii";
+        refuse_endpoints(ErrorCode::kEndpointsMissing, missing + "; give its inlet and outlets as points");
     }
 
-    void add_largest(StageContext& context) {
-        const auto& openings = surface_.openings;
-        const auto larger = [](const Opening& a, const Opening& b) { return a.radius < b.radius; };
-        const auto largest = std::max_element(openings.begin(), openings.end(), larger);
-        const OpeningId id(static_cast<std::size_t>(largest - openings.begin()));
-        double second = 0;
-        for (const Opening& o : openings)
-            if (&o != &*largest) second = std::max(second, o.radius);
-        if (second > 0 && largest->radius < kClearLargest * second)
-            context.warn("inlet_not_clear",
-                         "the largest opening (radius " + short_text(largest->radius) +
-                             ") is taken as the inlet, but the second is nearly as large (" + short_text(second) +
-                             "): state the inlet if it is another",
-                         largest->radius / second, kClearLargest);
-        taken_[at(id)] = true;
-        endpoints_.push_back(from_opening(surface_, complex_, id, EndpointRole::kInlet));
+    [[nodiscard]] bool accepts_points() const { return has(EndpointMode::kAuto) || has(EndpointMode::kPoints); }
+
+    /// The end that a point means: the one it is nearest to, in shares of the end's reach.
+    [[nodiscard]] std::size_t end_at(Vec3 point) const {
+        std::size_t best = ends_.size();
+        double least = 1;
+        for (std::size_t i = 0; i < ends_.size(); ++i) {
+            const double reach = (ends_[i].opening.is_none() ? kTipReach : kOpeningReach) * ends_[i].radius;
+            const double share = distance(ends_[i].point, point) / reach;
+            if (share < least) {
+                least = share;
+                best = i;
+            }
+        }
+        return best;
     }
 
-    void refuse_shared_anchors() const {
-        for (std::size_t i = 0; i < endpoints_.size(); ++i)
-            for (std::size_t j = i + 1; j < endpoints_.size(); ++j)
-                if (endpoints_[i].anchor_vertex == endpoints_[j].anchor_vertex)
-                    fail(ErrorCode::kEndpointAmbiguous,
-                         "the endpoints at " + short_text(endpoints_[i].point) + " and " +
-                             short_text(endpoints_[j].point) +
-                             " fall on the same place of the lumen: they are too close, or one of them is misplaced");
+    Endpoint take(std::size_t i) {
+        if (taken_[i])
+            refuse_endpoints(ErrorCode::kEndpointAmbiguous,
+                             "two of the given points mean the same " +
+                                 std::string(ends_[i].opening.is_none() ? "tip" : "opening") + " at " +
+                                 short_text(ends_[i].point));
+        taken_[i] = true;
+        Endpoint e = ends_[i];
+        anchor_end(surface_, complex_, e, context_);
+        return e;
+    }
+
+    Endpoint take_wish(Vec3 point, EndpointRole role) {
+        const std::string name = std::string(role_name(role)) + " point " + short_text(point);
+        if (const std::size_t i = end_at(point); i < ends_.size()) return take(i);
+        if (!accepts_points())
+            refuse_endpoints(ErrorCode::kEndpointOutside,
+                             "no opening has its centre within one of its radii of the " + name +
+                                 (has(EndpointMode::kTips) ? ", and no tip lies within three of its own" : ""));
+        return endpoint_at_point(complex_, point, "the " + name, context_);
+    }
+
+    [[nodiscard]] std::vector<std::size_t> free_ends() const {
+        std::vector<std::size_t> free;
+        for (std::size_t i = 0; i < ends_.size(); ++i)
+            if (!taken_[i]) free.push_back(i);
+        return free;
+    }
+
+    void apply_rules() {
+        std::vector<InletRule> rules = options_.inlet_rules;
+        const bool automatic = options_.inlets.empty() && rules.size() < 2;
+        if (options_.inlets.empty() && rules.empty()) rules.emplace_back();
+        for (const InletRule& rule : rules) apply(rule);
+        if (automatic && surface_.component_count > 1) give_parts_inlets(rules.front());
+    }
+
+    void apply(const InletRule& rule) {
+        if (rule.kind == InletRule::Kind::kPoint) {
+            if (const std::size_t i = end_at(rule.point); i < ends_.size()) taken_[i] = true;
+            inlets_.push_back(
+                endpoint_at_point(complex_, rule.point, "the inlet point " + short_text(rule.point), context_));
+            return;
+        }
+        const std::vector<std::size_t> free = free_ends();
+        const auto picked = free.empty() ? std::nullopt : pick_inlet(ends_, free, rule, context_);
+        if (!picked)
+            refuse_endpoints(ErrorCode::kNoInlet,
+                             "the inlet is to be '" + rule_text(rule) + "', but " +
+                                 (free.empty() ? "all ends have another role"
+                                               : "there is no such opening among the ends: the surface has " +
+                                                     counted(surface_.openings.size(), "opening")));
+        inlets_.push_back(take(*picked));
+    }
+
+    /// Gives each part of the lumen that no inlet reaches one of its own, if it has another end for it.
+    void give_parts_inlets(InletRule rule) {
+        if (rule.kind != InletRule::Kind::kSmallest && rule.kind != InletRule::Kind::kHighest &&
+            rule.kind != InletRule::Kind::kLowest)
+            rule = InletRule();
+        for (;;) {
+            for (const std::size_t i : free_ends()) anchor_end_once(i);
+            const std::vector<double> cost = costs_from(complex_, inlets_, ends_, context_);
+            std::vector<std::size_t> unreached;
+            for (const std::size_t i : free_ends())
+                if (!(cost[i] < std::numeric_limits<double>::infinity())) unreached.push_back(i);
+            if (unreached.empty()) return;
+            const std::size_t chosen = *pick_inlet(ends_, unreached, rule, context_);
+            const std::vector<double> from = costs_from(complex_, {ends_[chosen]}, ends_, context_);
+            const bool alone = std::none_of(unreached.begin(), unreached.end(), [&](std::size_t i) {
+                return i != chosen && from[i] < std::numeric_limits<double>::infinity();
+            });
+            taken_[chosen] = true;
+            if (!alone) {
+                inlets_.push_back(ends_[chosen]);
+                continue;
+            }
+            context_.warn("endpoint_unconnected",
+                          "the " + std::string(kind_name(ends_[chosen].kind)) + " at " +
+                              short_text(ends_[chosen].point) +
+                              " is the only end of its part of the lumen, which no inlet reaches; it is left out");
+        }
+    }
+
+    void anchor_end_once(std::size_t i) {
+        if (ends_[i].seeds.empty()) anchor_end(surface_, complex_, ends_[i], context_);
+    }
+
+    /// All ends without a role, in their order along the tree if they were found and not given.
+    Endpoints found_outlets(bool sort) {
+        Endpoints outlets;
+        for (const std::size_t i : free_ends()) {
+            anchor_end_once(i);
+            outlets.push_back(ends_[i]);
+        }
+        if (sort && outlets.size() > 1) sort_by_cost(outlets, costs_from(complex_, inlets_, outlets, context_));
+        return outlets;
+    }
+
+    Endpoints joined(Endpoints outlets) {
+        for (Endpoint& e : inlets_) e.role = EndpointRole::kInlet;
+        for (Endpoint& e : outlets) e.role = EndpointRole::kOutlet;
+        Endpoints all = std::move(inlets_);
+        all.insert(all.end(), std::make_move_iterator(outlets.begin()), std::make_move_iterator(outlets.end()));
+        refuse_shared_anchors(all);
+        return all;
+    }
+
+    static void refuse_shared_anchors(const Endpoints& all) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            for (std::size_t j = i + 1; j < all.size(); ++j)
+                if (all[i].anchor_vertex == all[j].anchor_vertex)
+                    refuse_endpoints(
+                        ErrorCode::kEndpointAmbiguous,
+                        "the endpoints at " + short_text(all[i].point) + " and " + short_text(all[j].point) +
+                            " fall on the same place of the lumen: they are too close, or one of them is misplaced");
     }
 
     const Surface& surface_;
     const VoronoiComplex& complex_;
     const EndpointOptions& options_;
-    std::vector<bool> taken_;
-    Endpoints endpoints_;
+    StageContext& context_;
+    Endpoints ends_;           // openings by descending size, then tips
+    std::vector<bool> taken_;  // ends that have a role, or none for good
+    Endpoints inlets_;
 };
 
 }  // namespace
 
 Endpoints find_endpoints(const Surface& surface, const VoronoiComplex& complex, const EndpointOptions& options,
                          StageContext& context) {
-    return Finder(surface, complex, options).run(context);
+    return Finder(surface, complex, options, context).run();
 }
 
 }  // namespace lumenline

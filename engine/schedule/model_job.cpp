@@ -62,7 +62,11 @@ void ModelJob::load(const Loader& loader) {
 
 void ModelJob::condition() {
     run(Stage::kCondition, [&](StageContext& context) {
-        record_.surface = std::make_shared<const Surface>(condition_surface(soup_, task_.options.condition, context));
+        ConditionOptions options = task_.options.condition;
+        const EndpointModes modes = task_.options.endpoints.mode;
+        if (modes.has(EndpointMode::kAuto)) options.flat_caps = FlatCaps::kOpenIfClosed;
+        if (modes.has(EndpointMode::kCaps)) options.flat_caps = FlatCaps::kOpen;
+        record_.surface = std::make_shared<const Surface>(condition_surface(soup_, options, context));
     });
     soup_ = {};
 }

@@ -65,11 +65,11 @@ inline constexpr Field kJumps{"/characterization/jumps", "1",
     "edges of the wall along which D_g or c(p) jumps: pole on another sheet, branches meet, other"};
 
 inline constexpr const char* kEndpoints = "/endpoints";
-inline constexpr Field kEndpointPoint{"/endpoints/point", "length", "centre of the opening, or the given point"};
+inline constexpr Field kEndpointPoint{"/endpoints/point", "length", "centre of the opening or cap, the given point, or the tip"};
 inline constexpr Field kEndpointNormal{"/endpoints/normal", "1", "unit, out of the lumen; zero for a given point"};
 inline constexpr Field kEndpointRadius{"/endpoints/radius", "length",
-    "of the opening's circle of equal area, or of the ball at a given point"};
-inline constexpr Field kEndpointKind{"/endpoints/kind", "1", "boundary | point"};
+    "of the opening's circle of equal area, or of the ball at a point or tip"};
+inline constexpr Field kEndpointKind{"/endpoints/kind", "1", "boundary | point | tip | cap"};
 inline constexpr Field kEndpointRole{"/endpoints/role", "1", "inlet (root of the tree) | outlet"};
 inline constexpr Field kAnchor{"/endpoints/anchor", "length", "point on the Voronoi complex where lines start or end"};
 inline constexpr Field kAnchorRadius{"/endpoints/anchor_radius", "length", "ball radius at the anchor"};

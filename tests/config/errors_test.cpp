@@ -36,7 +36,7 @@ TEST(ConfigErrors, WholeSentencesReadWell) {
     EXPECT_EQ(folder.error(model_with("scale: 010")),
               "cohort.yaml:5: key 'scale' must be a decimal number such as 12.5 or 1e-7, not '010'");
     EXPECT_EQ(folder.error(with("endpoints: {mode: point}")),
-              "cohort.yaml:2: key 'mode' must be auto, boundaries or points, not 'point'; did you mean 'points'?");
+              "cohort.yaml:2: key 'mode' must be auto, boundaries, caps, tips or points, not 'point'; did you mean 'points'?");
 }
 
 TEST(ConfigErrors, UnknownKeysGetTheNearestOne) {

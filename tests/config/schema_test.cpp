@@ -238,6 +238,7 @@ std::string type_fault(const KeyInfo& key, const json& schema) {
         {"boolean", "boolean"},
     };
     if (key.type == "points") return schema.value("$ref", "") == "#/$defs/points" ? "" : "type";
+    if (key.type == "points or text") return schema.value("$ref", "") == "#/$defs/inlets" ? "" : "type";
     if (key.type == "list") return schema.value("$ref", "") == "#/$defs/list" ? "" : "type";
     if (!kTypes.contains(key.type)) return "";
     return branch_with(schema, "type").value("type", json()) == kTypes.at(key.type) ? "" : "type";
