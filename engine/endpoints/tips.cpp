@@ -20,6 +20,7 @@ namespace lumenline {
 namespace {
 
 constexpr double kInset = 1.25;         // of a tip's vertex, from the wall beyond the tip, in its ball radii
+constexpr double kGrowth = 1.25;        // of the ball radius, over the next radius inward, beyond a spur
 constexpr double kCoverStep = 0.5;      // between balls that cover, in their radii
 constexpr double kLoopReach = 2;        // cost below the tip's vertex down to which its part is one region
 constexpr double kLoopBand = 1;         // cost of the band below the region in which its necks are counted
@@ -166,31 +167,45 @@ private:
         return order;
     }
 
-    /// Walks from `tip` towards the root, as far as the length `end`.
-    Branch measure(const ShortestPaths& paths, Vertex tip, double end) const {
+    /// Walks from `tip` towards the root, as far as the length `end` or the covered region.
+    [[nodiscard]] Branch measure(const ShortestPaths& paths, Vertex tip, double end) const {
+        std::vector<Vertex> path{tip};
         Branch branch;
         double integral = 0;
-        Vertex v = tip;
-        for (;;) {
-            const double back = paths.length[tip] - paths.length[v];
-            if (branch.anchor == kNoVertex && back + complex_.ball_radius[tip] >= kInset * complex_.ball_radius[v])
-                branch.anchor = v;
-            const VoronoiVertexId next = paths.parent[v];
-            if (covered_[v] || paths.length[v] <= end || next.is_none()) break;
-            const double step = paths.length[v] - paths.length[at(next)];
+        for (Vertex v = tip; !covered_[v] && paths.length[v] > end && !paths.parent[v].is_none(); v = path.back()) {
+            path.push_back(paths.parent[v].value);
+            const double step = paths.length[v] - paths.length[path.back()];
+            integral += 0.5 * step * (complex_.ball_radius[v] + complex_.ball_radius[path.back()]);
             branch.length += step;
-            integral += 0.5 * step * (complex_.ball_radius[v] + complex_.ball_radius[at(next)]);
-            v = next.value;
         }
-        if (branch.anchor == kNoVertex) branch.anchor = v;
         branch.radius = branch.length > 0 ? integral / branch.length : complex_.ball_radius[tip];
         branch.length += complex_.ball_radius[tip];
+        branch.anchor = path[anchor_on(paths, path)];
         branch.inner = branch.anchor;
         while (!paths.parent[branch.inner].is_none() &&
                distance(complex_.vertices[branch.inner], complex_.vertices[branch.anchor]) <
                    complex_.ball_radius[branch.anchor])
             branch.inner = paths.parent[branch.inner].value;
         return branch;
+    }
+
+    /// The first vertex of a tip's path that is far enough from the wall beyond the tip, and past the spur
+    /// into a corner of the end: one radius further in, balls are hardly larger. If there is none, the first
+    /// that is far enough.
+    [[nodiscard]] std::size_t anchor_on(const ShortestPaths& paths, const std::vector<Vertex>& path) const {
+        const auto radius = [&](std::size_t i) { return complex_.ball_radius[path[i]]; };
+        std::size_t far_enough = path.size() - 1;
+        for (std::size_t i = path.size(); i-- > 0;)
+            if (paths.length[path[0]] - paths.length[path[i]] + radius(0) >= kInset * radius(i)) far_enough = i;
+        for (std::size_t i = far_enough; i < path.size(); ++i) {
+            bool grows = false;
+            std::size_t k = i;
+            for (; k < path.size() && paths.length[path[i]] - paths.length[path[k]] < radius(i); ++k)
+                grows = grows || radius(k) > kGrowth * radius(i);
+            if (k == path.size() && i > far_enough) break;
+            if (!grows) return i;
+        }
+        return far_enough;
     }
 
     void cover_root(const ShortestPaths& first, Vertex root) {
