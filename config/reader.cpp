@@ -183,8 +183,8 @@ std::vector<Vec3> MapReader::points(std::string_view key) const {
 
 std::pair<std::vector<Vec3>, std::vector<InletRule>> MapReader::points_or_rules(std::string_view key) const {
     const YamlEntry* entry = find(key);
-    const bool rules = entry != nullptr && entry->value->kind == YamlNode::Kind::kScalar &&
-                       looks_like_rules(entry->value->text);
+    const bool rules =
+        entry != nullptr && entry->value->kind == YamlNode::Kind::kScalar && looks_like_rules(entry->value->text);
     if (rules) return {{}, parse_inlet_rules(place(*entry), entry->value->text)};
     return {points(key), {}};
 }

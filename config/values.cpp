@@ -138,7 +138,7 @@ std::vector<Vec3> parse_points(const Place& place, std::string_view cell) {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kRuleWords{"largest", "smallest", "highest",  "lowest",
+constexpr std::array<std::string_view, 7> kRuleWords{"largest", "smallest", "highest", "lowest",
                                                      "nearest", "boundary", "point"};
 
 InletRule parse_inlet_rule(const Place& place, std::string_view text) {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "engine/endpoints/shortest_paths.h"
 
@@ -20,7 +21,8 @@ namespace lumenline {
 namespace {
 
 constexpr double kInset = 1.25;         // of a tip's vertex, from the wall beyond the tip, in its ball radii
-constexpr double kGrowth = 1.25;        // of the ball radius, over the next radius inward, beyond a spur
+constexpr double kGrowth = 0.1;         // of the balls over the next radius inward, at most, beyond a spur
+constexpr double kDeepest = 2;          // of a tip's vertex, from the wall beyond the tip, in its ball radii
 constexpr double kCoverStep = 0.5;      // between balls that cover, in their radii
 constexpr double kLoopReach = 2;        // cost below the tip's vertex down to which its part is one region
 constexpr double kLoopBand = 1;         // cost of the band below the region in which its necks are counted
@@ -126,7 +128,7 @@ public:
         for (const Seed& root : roots) cover_root(first, root.vertex.value);
         for (const Vertex v : descending)
             if (ends[v] >= 0) try_tip(paths, v, ends[v]);
-        return with_roots(first, roots, paths);
+        return with_roots(first, roots);
     }
 
 private:
@@ -189,23 +191,37 @@ private:
         return branch;
     }
 
-    /// The first vertex of a tip's path that is far enough from the wall beyond the tip, and past the spur
-    /// into a corner of the end: one radius further in, balls are hardly larger. If there is none, the first
-    /// that is far enough.
+    /// The vertex of a tip's path that is far enough from the wall beyond the tip and past the spur into a
+    /// corner of the end: one radius further in, balls are hardly larger. Within two radii of the end, the
+    /// first of which that holds, else the one of which it holds best.
     [[nodiscard]] std::size_t anchor_on(const ShortestPaths& paths, const std::vector<Vertex>& path) const {
         const auto radius = [&](std::size_t i) { return complex_.ball_radius[path[i]]; };
-        std::size_t far_enough = path.size() - 1;
-        for (std::size_t i = path.size(); i-- > 0;)
-            if (paths.length[path[0]] - paths.length[path[i]] + radius(0) >= kInset * radius(i)) far_enough = i;
-        for (std::size_t i = far_enough; i < path.size(); ++i) {
-            bool grows = false;
-            std::size_t k = i;
-            for (; k < path.size() && paths.length[path[i]] - paths.length[path[k]] < radius(i); ++k)
-                grows = grows || radius(k) > kGrowth * radius(i);
-            if (k == path.size() && i > far_enough) break;
-            if (!grows) return i;
+        const auto back = [&](std::size_t i) { return paths.length[path[0]] - paths.length[path[i]]; };
+        std::size_t i = 0;
+        while (i + 1 < path.size() && back(i) + radius(0) < kInset * radius(i)) ++i;
+        std::size_t best = i;
+        double least = std::numeric_limits<double>::infinity();
+        for (; i < path.size() && back(i) + radius(0) <= kDeepest * radius(i); ++i) {
+            const double growth = growth_from(paths, path, i);
+            if (growth < least) {
+                least = growth;
+                best = i;
+            }
+            if (growth <= kGrowth) break;
         }
-        return far_enough;
+        return best;
+    }
+
+    /// Largest growth of the ball radius along the path from vertex `i` to the first one beyond one radius,
+    /// per radius or length, whichever is more.
+    [[nodiscard]] double growth_from(const ShortestPaths& paths, const std::vector<Vertex>& path, std::size_t i) const {
+        const double radius = complex_.ball_radius[path[i]];
+        double growth = 0, along = 0;
+        for (std::size_t k = i + 1; k < path.size() && along < radius; ++k) {
+            along = paths.length[path[i]] - paths.length[path[k]];
+            growth = std::max(growth, (complex_.ball_radius[path[k]] - radius) / std::max(along, radius));
+        }
+        return growth;
     }
 
     void cover_root(const ShortestPaths& first, Vertex root) {
@@ -245,6 +261,9 @@ private:
         const Branch branch = measure(paths, end, branch_end);
         if (!(branch.length > tip_length_ * branch.radius)) return;
         cover_path(paths, end);
+        Vertex root = end;
+        while (!paths.parent[root].is_none()) root = paths.parent[root].value;
+        branched_.insert(root);
         if (closes_loop(paths, branch.anchor) || is_opening(branch.anchor)) return;
         tips_.push_back(make_tip(branch, end));
     }
@@ -307,29 +326,18 @@ private:
         return loop;
     }
 
-    /// Adds the roots themselves, which no path ends at: they are tips where their part has another one.
-    std::vector<Tip> with_roots(const ShortestPaths& first, const std::vector<Seed>& roots,
-                                const ShortestPaths& paths) {
-        std::vector<Vertex> root_of(complex_.vertex_count(), kNoVertex);
+    /// Puts the roots first, which no path ends at: they are tips where their part has another end.
+    std::vector<Tip> with_roots(const ShortestPaths& first, const std::vector<Seed>& roots) {
         std::vector<Tip> tips;
+        std::fill(covered_.begin(), covered_.end(), 0);
         for (const Seed& root : roots) {
-            const Vertex r = root.vertex.value;
-            (void)paths;
-            const Branch branch = measure_root(first, r);
-            if (!(branch.length > tip_length_ * branch.radius)) continue;
+            if (!branched_.contains(root.vertex.value)) continue;
+            const Branch branch = measure(first, root.vertex.value, 0);
             if (closes_loop(first, branch.anchor) || is_opening(branch.anchor)) continue;
-            tips.push_back(make_tip(branch, r));
+            tips.push_back(make_tip(branch, root.vertex.value));
         }
         tips.insert(tips.end(), tips_.begin(), tips_.end());
         return tips;
-    }
-
-    Branch measure_root(const ShortestPaths& first, Vertex root) {
-        std::vector<char> none(covered_.size(), 0);
-        covered_.swap(none);
-        const Branch branch = measure(first, root, 0);
-        covered_.swap(none);
-        return branch;
     }
 
     const Surface& surface_;
@@ -339,6 +347,7 @@ private:
     std::vector<char> covered_;
     std::vector<std::uint32_t> stamp_;  // of the last flood that entered each vertex
     std::uint32_t visit_ = 0;
+    std::set<Vertex> branched_;  // roots that a branch leads to
     std::vector<Tip> tips_;
 };
 

@@ -65,7 +65,8 @@ inline constexpr Field kJumps{"/characterization/jumps", "1",
     "edges of the wall along which D_g or c(p) jumps: pole on another sheet, branches meet, other"};
 
 inline constexpr const char* kEndpoints = "/endpoints";
-inline constexpr Field kEndpointPoint{"/endpoints/point", "length", "centre of the opening or cap, the given point, or the tip"};
+inline constexpr Field kEndpointPoint{"/endpoints/point", "length",
+    "centre of the opening or cap, the given point, or the tip"};
 inline constexpr Field kEndpointNormal{"/endpoints/normal", "1", "unit, out of the lumen; zero for a given point"};
 inline constexpr Field kEndpointRadius{"/endpoints/radius", "length",
     "of the opening's circle of equal area, or of the ball at a point or tip"};

@@ -88,12 +88,40 @@ TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
     EXPECT_EQ(mode("auto"), EndpointMode::kAuto);
     EXPECT_EQ(mode("boundaries"), EndpointMode::kBoundaries);
     EXPECT_EQ(mode("points"), EndpointMode::kPoints);
+    EXPECT_EQ(mode("caps"), EndpointMode::kCaps);
+    EXPECT_EQ(mode("[tips]"), EndpointMode::kTips);
+    EXPECT_EQ(mode("[tips, boundaries]"), EndpointModes(EndpointMode::kBoundaries) | EndpointMode::kTips);
     for (const std::string system : {"LPS", "RAS", "unknown"})
         EXPECT_EQ(folder.load(with("coordinate_system: " + system)).tasks.at(0).identity.coordinate_system, system);
     EXPECT_EQ(folder.load(with("centerlines: {refine: path}")).tasks.at(0).options.trace.refine, Refinement::kPath);
     EXPECT_EQ(folder.load(with("centerlines: {pairs: nearest}")).tasks.at(0).options.trace.pairs, Pairs::kNearest);
     EXPECT_TRUE(folder.load(with("archive: {precision: float32}")).archive.float32_fields);
     EXPECT_EQ(folder.load(with("run: {threads: all, models_in_flight: auto}")).run.threads, 0);
+}
+
+TEST(Cohort, InletsByRule) {
+    const Folder folder;
+    using Kind = InletRule::Kind;
+    const auto rules = [](const CohortConfig& config) { return config.tasks.at(0).options.endpoints.inlet_rules; };
+    const auto cohort_rules = [&](const std::string& text) {
+        return rules(folder.load(with("endpoints:\n  inlet: " + text)));
+    };
+    EXPECT_TRUE(cohort_rules("largest").empty()) << "the default";
+    EXPECT_EQ(cohort_rules("highest z; smallest"),
+              (std::vector<InletRule>{{Kind::kHighest, 2, 1, {}}, {Kind::kSmallest, 2, 1, {}}}));
+    EXPECT_EQ(cohort_rules("lowest x"), (std::vector<InletRule>{{Kind::kLowest, 0, 1, {}}}));
+    EXPECT_EQ(cohort_rules("nearest [1, -2e1, 3]"), (std::vector<InletRule>{{Kind::kNearest, 2, 1, {1, -20, 3}}}));
+    EXPECT_EQ(cohort_rules("point [1,2,3]"), (std::vector<InletRule>{{Kind::kPoint, 2, 1, {1, 2, 3}}}));
+    EXPECT_EQ(cohort_rules("boundary 2"), (std::vector<InletRule>{{Kind::kBoundary, 2, 2, {}}}));
+    EXPECT_EQ(rules(folder.load(model_with("inlets: highest y"))),
+              (std::vector<InletRule>{{Kind::kHighest, 1, 1, {}}}));
+    const CohortConfig own = folder.load(
+        "cohort: c\nendpoints: {inlet: smallest}\nmodels:\n  - {id: a, surface: a.stl}\n"
+        "  - {id: b, surface: b.stl, inlets: [[1, 2, 3]]}\n  - {id: c, surface: c.stl, inlets: lowest z}\n");
+    EXPECT_EQ(own.tasks.at(0).options.endpoints.inlet_rules.at(0).kind, Kind::kSmallest);
+    EXPECT_TRUE(own.tasks.at(1).options.endpoints.inlet_rules.empty());
+    EXPECT_EQ(own.tasks.at(2).options.endpoints.inlet_rules.at(0).kind, Kind::kLowest);
+    EXPECT_EQ(folder.load(with("endpoints: {tip_length: 4.5}")).tasks.at(0).options.endpoints.tip_length, 4.5);
 }
 
 TEST(Cohort, EveryModelKeyHasItsEffect) {

@@ -36,12 +36,23 @@ TEST(ConfigErrors, WholeSentencesReadWell) {
     EXPECT_EQ(folder.error(model_with("scale: 010")),
               "cohort.yaml:5: key 'scale' must be a decimal number such as 12.5 or 1e-7, not '010'");
     EXPECT_EQ(folder.error(with("endpoints: {mode: point}")),
-              "cohort.yaml:2: key 'mode' must be auto, boundaries, caps, tips or points, not 'point'; did you mean 'points'?");
+              "cohort.yaml:2: key 'mode' must be auto, boundaries, caps, tips or points, not 'point'; did you mean "
+              "'points'?");
 }
 
 TEST(ConfigErrors, UnknownKeysGetTheNearestOne) {
     expect_errors({
         {with("lenght_unit: mm"), 2, "unknown key 'lenght_unit' in the configuration; did you mean 'length_unit'?"},
+        {with("endpoints: {mode: [tips, tips]}"), 2, "lists 'tips' twice"},
+        {with("endpoints: {mode: []}"), 2, "must list at least one of"},
+        {with("endpoints: {inlet: larges}"), 2, "did you mean 'largest'?"},
+        {with("endpoints: {inlet: highest w}"), 2, "takes an axis x, y or z, not 'w'"},
+        {with("endpoints: {inlet: largest z}"), 2, "takes nothing behind it"},
+        {with("endpoints: {inlet: boundary 0}"), 2, "must lie between 1 and"},
+        {with("endpoints:\n  inlet: nearest 1,2,3"), 3, "takes a point [x, y, z]"},
+        {with("endpoints: {inlet: 1}"), 2, "must say largest,"},
+        {with("endpoints: {tip_length: 0.5}"), 2, "must lie between 1 and 1000"},
+        {model_with("inlets: higest z"), 5, "did you mean 'highest'?"},
         {with("endpoint: {mode: auto}"), 2, "did you mean 'endpoints'?"},
         {with("Archive: {}"), 2, "did you mean 'archive'?"},
         {with("run:\n  thread: 3"), 3, "did you mean 'threads'?"},

@@ -80,6 +80,10 @@ TEST(Table, CsvCellsMayBeQuoted) {
 }
 
 TEST(Table, TsvCellsQuotedByASpreadsheetAreRead) {
+    const auto rules =
+        load("id\tsurface\tinlet\na\ta.stl\thighest z; nearest [1,2,3]\n").at(0).options.endpoints.inlet_rules;
+    ASSERT_EQ(rules.size(), 2U);
+    EXPECT_EQ(rules[1].point, (Vec3{1, 2, 3}));
     EXPECT_EQ(load("id\tsurface\tinlets\na\ta.stl\t\"1,2,3\"\n").at(0).options.endpoints.inlets,
               (std::vector<Vec3>{{1, 2, 3}}));
 }

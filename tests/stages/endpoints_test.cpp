@@ -280,12 +280,16 @@ TEST(Endpoints, TwoPointsAtOnePlaceAreRefused) {
               ErrorCode::kEndpointAmbiguous);
 }
 
-TEST(Endpoints, ClosedSurfaceWithoutPointsIsRefused) {
+TEST(Endpoints, ClosedSurfaceWithoutPointsHasItsTipsUnlessOtherEndsAreAskedFor) {
     const Model model = closed_hairpin();
     const Vec3 p = hairpin_truth().position(5);
-    EXPECT_EQ(model.refusal({}), ErrorCode::kEndpointsMissing);
-    EXPECT_EQ(model.refusal({EndpointMode::kAuto, {p}, {}}), ErrorCode::kEndpointsMissing);
-    EXPECT_EQ(model.refusal({EndpointMode::kAuto, {}, {p}}), ErrorCode::kEndpointsMissing);
+    EXPECT_EQ(model.refusal({}), std::nullopt);
+    EXPECT_EQ(model.refusal({EndpointMode::kAuto, {p}, {}}), std::nullopt);
+    EXPECT_EQ(model.refusal({EndpointMode::kAuto, {}, {p}}), std::nullopt);
+    EXPECT_EQ(model.refusal({EndpointMode::kBoundaries, {}, {}}), ErrorCode::kEndpointsMissing);
+    EXPECT_EQ(model.refusal({EndpointMode::kCaps, {}, {}}), ErrorCode::kEndpointsMissing);
+    EXPECT_EQ(model.refusal(points({p}, {})), ErrorCode::kEndpointsMissing);
+    EXPECT_EQ(model.refusal(points({}, {p})), ErrorCode::kEndpointsMissing);
     EXPECT_EQ(model.refusal({EndpointMode::kBoundaries, {p}, {hairpin_truth().position(20)}}),
               ErrorCode::kEndpointsMissing);
     EXPECT_EQ(model.refusal(points({}, {})), ErrorCode::kEndpointsMissing);
