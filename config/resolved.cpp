@@ -34,6 +34,18 @@ void write_points(YAML::Emitter& out, const char* key, const std::vector<Vec3>& 
     out << YAML::EndSeq;
 }
 
+void write_modes(YAML::Emitter& out, EndpointModes modes) {
+    std::string text = modes_text(modes);
+    if (text.find(',') == std::string::npos) return write(out, "mode", text);
+    out << YAML::Key << "mode" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (std::size_t comma = 0; comma != std::string::npos; text.erase(0, comma + 1)) {
+        comma = text.find(',');
+        out << text.substr(0, comma);
+        if (comma == std::string::npos) break;
+    }
+    out << YAML::EndSeq;
+}
+
 void write_section(YAML::Emitter& out, const char* key) { out << YAML::Key << key << YAML::Value << YAML::BeginMap; }
 
 void write_model(YAML::Emitter& out, const ModelTask& task) {
@@ -87,11 +99,7 @@ std::string resolved_text(const CohortConfig& config) {
     for (const ModelTask& task : config.tasks) write_model(out, task);
     out << YAML::EndSeq << YAML::EndMap;
     write_section(out, "endpoints");
-    out << YAML::Key << "mode" << YAML::Value << YAML::Flow << YAML::BeginSeq;
-    for (const EndpointMode mode : {EndpointMode::kAuto, EndpointMode::kBoundaries, EndpointMode::kCaps,
-                                    EndpointMode::kTips, EndpointMode::kPoints})
-        if (options.endpoints.mode.has(mode)) out << std::string(mode_name(mode));
-    out << YAML::EndSeq;
+    write_modes(out, options.endpoints.mode);
     write(out, "inlet", "largest");  // what differs stands with the models
     write(out, "tip_length", exact_text(options.endpoints.tip_length));
     out << YAML::EndMap;

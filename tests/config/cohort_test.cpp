@@ -121,6 +121,12 @@ TEST(Cohort, InletsByRule) {
     EXPECT_EQ(own.tasks.at(0).options.endpoints.inlet_rules.at(0).kind, Kind::kSmallest);
     EXPECT_TRUE(own.tasks.at(1).options.endpoints.inlet_rules.empty());
     EXPECT_EQ(own.tasks.at(2).options.endpoints.inlet_rules.at(0).kind, Kind::kLowest);
+    folder.write("again.yaml", resolved_text(own));
+    const CohortConfig again = load_cohort(folder.path() / "again.yaml");
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(canonical_text(again.tasks.at(i)), canonical_text(own.tasks.at(i)));
+    const CohortConfig two = folder.load(with("endpoints: {mode: [tips, caps]}"));
+    folder.write("two.yaml", resolved_text(two));
+    EXPECT_EQ(canonical_text(load_cohort(folder.path() / "two.yaml").tasks.at(0)), canonical_text(two.tasks.at(0)));
     EXPECT_EQ(folder.load(with("endpoints: {tip_length: 4.5}")).tasks.at(0).options.endpoints.tip_length, 4.5);
 }
 
