@@ -6,12 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/text.h"
+
 namespace lumenline {
 
 namespace {
 
 constexpr double kCostRounding = 1e-6;  // of the cost: what its sampling at other nodes may change
 constexpr double kStray = 1.0;          // of the path's ball radius
+constexpr double kSharpest = 0.5;  // cosine: pieces are a small part of a radius long, on which no axis turns so far
 
 /// Piecewise linear function; arguments ascend.
 class Graph {
@@ -59,6 +62,10 @@ std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from,
     }
     if (refined.largest_stray > kStray) {
         why = "stray from the balls of its path";
+        return std::nullopt;
+    }
+    if (const Turn turn = sharpest_turn(refined.line); turn.cosine < kSharpest) {
+        why = "turn sharply at " + short_text(turn.at);
         return std::nullopt;
     }
     FinalLine final;

@@ -27,7 +27,7 @@ FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_
 /// The path refined, cut at the planes and checked like the path.
 /// @param why  set where there is no line: what the refined line would do, for the diagnostics
 /// @returns nothing where the refined line leaves the lumen, is costlier than the path by its own measure, strays
-///          from it by more than its balls' radii, or has no part between the planes
+///          from it by more than its balls' radii, turns sharply, or has no part between the planes
 std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from, const Endpoint& to,
                                      MedialRefiner& refiner, LineVerifier& verifier, std::string& why);
 

@@ -40,4 +40,14 @@ double cut_at_plane(Polyline& line, Vec3 origin, Vec3 normal, bool at_front) {
     return whole - (line.size() > 0 ? line.abscissa.back() : 0.0);
 }
 
+Turn sharpest_turn(const Polyline& line) {
+    Turn sharpest;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        const Vec3 before = normalized(line.points[i] - line.points[i - 1]);
+        const Vec3 after = normalized(line.points[i + 1] - line.points[i]);
+        if (const double cosine = dot(before, after); cosine < sharpest.cosine) sharpest = {cosine, line.points[i]};
+    }
+    return sharpest;
+}
+
 }  // namespace lumenline

@@ -23,4 +23,11 @@ struct Polyline {
 /// @returns the arc length cut off [length]
 double cut_at_plane(Polyline& line, Vec3 origin, Vec3 normal, bool at_front);
 
+/// The sharpest turn between two segments that follow each other.
+struct Turn {
+    double cosine = 1;  ///< 1 where the line goes straight on, -1 where it turns back
+    Vec3 at;            ///< [length]
+};
+Turn sharpest_turn(const Polyline& line);
+
 }  // namespace lumenline

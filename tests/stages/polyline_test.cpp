@@ -103,5 +103,22 @@ TEST(CutAtPlane, CutAtAPointOfTheLineKeepsThatPoint) {
     EXPECT_DOUBLE_EQ(line.abscissa.back(), 6);
 }
 
+TEST(SharpestTurn, IsFoundWithItsPlace) {
+    Polyline line;
+    for (const Vec3 x :
+         {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{2, 0, 0}, Vec3{2.5, 0.5, 0}, Vec3{2, 0.5, 0}, Vec3{1, 0.5, 0}})
+        line.append(x, 1);
+    const Turn turn = sharpest_turn(line);
+    EXPECT_NEAR(turn.cosine, -std::sqrt(0.5), 1e-15);
+    EXPECT_EQ(turn.at, (Vec3{2.5, 0.5, 0}));
+}
+
+TEST(SharpestTurn, StraightAndShortLinesHaveNone) {
+    Polyline line;
+    EXPECT_EQ(sharpest_turn(line).cosine, 1);
+    for (int i = 0; i < 4; ++i) line.append({0.3 * i, 0.4 * i, 0}, 1);
+    EXPECT_NEAR(sharpest_turn(line).cosine, 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace lumenline
