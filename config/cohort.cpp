@@ -59,8 +59,8 @@ PipelineOptions read_options(const MapReader& top) {
 
     const MapReader centerlines = top.section("centerlines");
     TraceOptions& t = options.trace;
-    t.refine = enumerated(centerlines.choice("refine"), t.refine, std::array{Refinement::kNone, Refinement::kPath, Refinement::kMedial},
-                          refinement_name);
+    t.refine = enumerated(centerlines.choice("refine"), t.refine,
+                          std::array{Refinement::kNone, Refinement::kPath, Refinement::kMedial}, refinement_name);
     t.pairs = enumerated(centerlines.choice("pairs"), t.pairs, std::array{Pairs::kNearest, Pairs::kAll}, pairs_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
     return options;

@@ -8,8 +8,8 @@
 namespace lumenline {
 
 std::string_view stage_name(Stage stage) {
-    static constexpr std::array<std::string_view, kStageCount> kNames{"load",    "condition", "voronoi",      "endpoints",
-                                                                      "eikonal", "trace",     "characterize", "archive"};
+    static constexpr std::array<std::string_view, kStageCount> kNames{
+        "load", "condition", "voronoi", "endpoints", "eikonal", "trace", "characterize", "archive"};
     return kNames.at(static_cast<std::size_t>(stage));
 }
 

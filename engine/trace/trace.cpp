@@ -116,9 +116,9 @@ public:
 private:
     /// A line before it is accepted.
     struct Candidate {
-        Polyline whole;        ///< from anchor to anchor
-        Polyline cut;          ///< the part between the openings' planes
-        double cut_front = 0;  ///< length cut off before it [length]
+        Polyline whole;                    ///< from anchor to anchor
+        Polyline cut;                      ///< the part between the openings' planes
+        double cut_front = 0;              ///< length cut off before it [length]
         std::vector<ComplexPoint> places;  ///< of the points of `whole`
         LineCheck check;
     };

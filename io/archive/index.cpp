@@ -132,9 +132,8 @@ std::set<std::string> own_columns() {
           names::kStructure,    names::kGroup,      names::kLengthUnit, names::kCoordinates,   names::kSourceFile,
           names::kSourceSha,    names::kInputsSha,  names::kSites,      names::kTriangleCount, names::kVertexCount,
           names::kPolygonCount, names::kInlets,     names::kOutlets,    names::kLineCount,     names::kLineLength,
-          names::kUnreached,
-          names::kRadiusMin,    names::kRadiusMean, names::kRadiusMax,  names::kWarnings,      names::kFailureStage,
-          names::kFailureCode})
+          names::kUnreached,    names::kRadiusMin,  names::kRadiusMean, names::kRadiusMax,     names::kWarnings,
+          names::kFailureStage, names::kFailureCode})
         own.insert(std::string(field.path).substr(prefix.size()));
     for (const names::StatisticsColumn& c : names::kStatisticsColumns)
         own.insert(std::string(c.field.path).substr(prefix.size()));

@@ -42,8 +42,7 @@ std::string place(const SourceFile& file, std::size_t position) {
     if (file.origin != nullptr) {
         return place(*file.origin, file.origin_position) + ", decoded byte " + std::to_string(position);
     }
-    return file.text ? "line " + std::to_string(line_number(file.bytes, position))
-                     : "byte " + std::to_string(position);
+    return file.text ? "line " + std::to_string(line_number(file.bytes, position)) : "byte " + std::to_string(position);
 }
 
 }  // namespace
@@ -69,8 +68,8 @@ void check_count(const SourceFile& file, std::size_t position, std::uint64_t cou
     if (bytes_each > 0 && count > rest / bytes_each) {
         fail_at(file, position, ErrorCode::kFileFormat,
                 "expected " + std::to_string(count) + " " + std::string(noun) + " of at least " +
-                    std::to_string(bytes_each) + " bytes each, found only " + std::to_string(rest) +
-                    " bytes up to " + std::string(file.end));
+                    std::to_string(bytes_each) + " bytes each, found only " + std::to_string(rest) + " bytes up to " +
+                    std::string(file.end));
     }
     if (count > kMaxCount) {
         fail_at(file, position, ErrorCode::kTooLarge,

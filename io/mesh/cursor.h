@@ -18,7 +18,7 @@ inline constexpr std::uint64_t kMaxCount = std::numeric_limits<std::int32_t>::ma
 struct SourceFile {
     std::string path;  ///< as given, for messages
     std::string_view bytes;
-    bool text = true;  ///< messages tell positions as line numbers; else as byte offsets
+    bool text = true;                              ///< messages tell positions as line numbers; else as byte offsets
     std::string_view end = "the end of the file";  ///< what follows the last byte, for messages
     /// Where `bytes` were decoded from, for messages; null if they are those of the file.
     const SourceFile* origin = nullptr;

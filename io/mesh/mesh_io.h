@@ -16,8 +16,9 @@ namespace lumenline {
 /// texture coordinates), legacy VTK polydata and unstructured grids of flat cells (ascii, binary, versions 1.0 to
 /// 5.1), VTK XML polydata (.vtp: ascii, base64, appended; plain or compressed by zlib; pieces are joined). The
 /// content decides, and the extension where the content bears no mark (OBJ). Vertices and lines of VTK files are
-/// left out; arrays of whole numbers on their cells are kept as TriangleSoup::cell_labels. Polygons are triangulated: quads along their shorter
-/// diagonal, larger ones as a fan. Corners of an STL file are one point where their coordinates are identical
+/// left out; arrays of whole numbers on their cells are kept as TriangleSoup::cell_labels. Polygons are triangulated:
+/// quads along their shorter diagonal, larger ones as a fan. Corners of an STL file are one point where their
+/// coordinates are identical
 /// (-0.0 counts as +0.0); nothing else is merged or dropped: repeated corners and unused points stay.
 /// Coordinates are those of the file, in double precision and the file's unit.
 /// @throws StageError (Stage::kLoad) kFileUnreadable: no regular file, or it cannot be read;

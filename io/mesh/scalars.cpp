@@ -33,8 +33,8 @@ const char* ScalarReader::take(std::size_t size, std::string_view noun) {
     last_ = cursor_.position();
     if (cursor_.remaining() < size) {
         fail_at(file_, last_, ErrorCode::kFileFormat,
-                "expected " + std::string(noun) + " of " + counted(size, "byte") + ", found " + std::string(file_.end) + " " +
-                    counted(cursor_.remaining(), "byte") + " later");
+                "expected " + std::string(noun) + " of " + counted(size, "byte") + ", found " + std::string(file_.end) +
+                    " " + counted(cursor_.remaining(), "byte") + " later");
     }
     cursor_.move_to(last_ + size);
     return file_.bytes.data() + last_;

@@ -3,12 +3,11 @@
 #include "io/archive/model_file.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <limits>

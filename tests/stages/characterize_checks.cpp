@@ -63,7 +63,8 @@ private:
             const double t = nearest_on_segment(path_.points[k], path_.points[k + 1], foot);
             const double d = distance(lerp(path_.points[k], path_.points[k + 1], t), foot);
             const double s = (1 - t) * path_.line_abscissa[k] + t * path_.line_abscissa[k + 1];
-            if (d <= kRounding * surface_.diagonal) abscissa_error = std::min(abscissa_error, std::fabs(s - character_.abscissa[i]));
+            if (d <= kRounding * surface_.diagonal)
+                abscissa_error = std::min(abscissa_error, std::fabs(s - character_.abscissa[i]));
         }
         expect(std::isfinite(abscissa_error), "c(p) is not on its line", i);
         expect(abscissa_error <= 1e-6 * surface_.diagonal, "c(p) has another abscissa", i);
