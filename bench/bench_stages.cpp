@@ -73,6 +73,11 @@ std::size_t digest(const SurfaceCharacter& c) {
 }
 std::size_t digest(const Solved& solved) { return digest(solved.lines); }
 
+PipelineOptions on_the_complex(PipelineOptions options) {
+    options.trace.refine = Refinement::kPath;
+    return options;
+}
+
 Model prepare(const Input& input) {
     Model model;
     model.surface = condition(input);
@@ -185,6 +190,12 @@ const NamedStage kStages[] = {
      [](benchmark::State& state, const Input& input, const Model& m) {
          time_pairs(state, m, digest(m.solved.lines), [&] { return trace(m.surface, m.solved, input.options); });
      }},
+    {"trace_path",
+     [](benchmark::State& state, const Input& input, const Model& m) {
+         const PipelineOptions options = on_the_complex(input.options);
+         time_pairs(state, m, digest(trace(m.surface, m.solved, options)),
+                    [&] { return trace(m.surface, m.solved, options); });
+     }},
     {"characterize",
      [](benchmark::State& state, const Input&, const Model& m) {
          time_pairs(state, m, digest(m.solved.character), [&] { return characterize(m.surface, m.solved); });
@@ -192,6 +203,19 @@ const NamedStage kStages[] = {
     {"whole",
      [](benchmark::State& state, const Input& input, const Model& m) {
          time_pairs(state, m, digest(m.solved), [&] { return solve(m.surface, input.options); });
+     }},
+    {"whole_path",
+     [](benchmark::State& state, const Input& input, const Model& m) {
+         const PipelineOptions options = on_the_complex(input.options);
+         time_pairs(state, m, digest(trace(m.surface, m.solved, options)), [&] { return solve(m.surface, options); });
+     }},
+    {"everything",
+     [](benchmark::State& state, const Input& input, const Model& m) {
+         time_pairs(state, m, digest(m.solved), [&] {
+             Solved solved = solve(m.surface, input.options);
+             solved.character = characterize(m.surface, solved);
+             return solved;
+         });
      }},
 };
 

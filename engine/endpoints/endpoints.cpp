@@ -197,7 +197,7 @@ private:
             anchor_end_once(i);
             outlets.push_back(ends_[i]);
         }
-        if (sort && outlets.size() > 1) sort_by_cost(outlets, costs_from(complex_, inlets_, outlets, context_));
+        if (sort && outlets.size() > 1) sort_by_cost(outlets, wall_distances(surface_, inlets_, outlets));
         return outlets;
     }
 

@@ -20,9 +20,9 @@ namespace lumenline {
 /// is. Where the lumen has several parts, each part with two ends or more gets an inlet by the same rule.
 /// Outlets are the given ones, or all other ends.
 ///
-/// Order: inlets, then outlets. What is given keeps the order given. Outlets that are found stand by the cost
-/// of the path to them from the nearest inlet, the integral of 1/R: it depends on the lumen alone, not on
-/// how its triangles are numbered, turned or scaled, and is near to the arrival time. Costs within 1e-6
+/// Order: inlets, then outlets. What is given keeps the order given. Outlets that are found stand by the length
+/// of the way along the wall's edges from the nearest inlet, which does not depend on how the triangles are
+/// numbered, turned or scaled; paths over the complex would take three times as long. Lengths within 1e-6
 /// are equal and go by radius, largest first; radii within 1e-6 by position.
 ///
 /// @param context  receives warnings: inlet_not_clear, endpoint_off_axis, endpoint_unconnected

@@ -9,6 +9,7 @@
 
 #include "engine/core/text.h"
 #include "engine/endpoints/shortest_paths.h"
+#include "engine/geometry/heap.h"
 
 namespace lumenline {
 
@@ -78,11 +79,55 @@ std::vector<double> costs_from(const VoronoiComplex& complex, const Endpoints& i
                                StageContext& context) {
     std::vector<Seed> seeds;
     for (const Endpoint& e : inlets) seeds.insert(seeds.end(), e.seeds.begin(), e.seeds.end());
-    const ShortestPaths paths = shortest_paths(complex, seeds, context);
+    const ShortestPaths paths = shortest_paths(complex, seeds, PathSteps::kEdges, context);
     std::vector<double> cost(ends.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < ends.size(); ++i)
         for (const Seed& s : ends[i].seeds) cost[i] = std::min(cost[i], paths.cost[at(s.vertex)] + s.time);
     return cost;
+}
+
+std::vector<double> wall_distances(const Surface& surface, const Endpoints& inlets, const Endpoints& ends) {
+    const std::size_t n = surface.site_count();
+    // On a closed oriented surface every edge is run through once each way.
+    std::vector<std::uint32_t> offsets(n + 1, 0);
+    for (const auto& t : surface.triangles)
+        for (const SiteId s : t) ++offsets[at(s) + 1];
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    std::vector<SiteId> neighbours(offsets.back());
+    std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
+    for (const auto& t : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) neighbours[next[at(t[k])]++] = t[(k + 1) % 3];
+
+    const auto sites_of = [&](const Endpoint& e) -> std::vector<SiteId> {
+        if (!e.opening.is_none()) return surface.openings[at(e.opening)].loop;
+        const auto nearest = std::min_element(surface.points.begin(), surface.points.end(), [&](Vec3 p, Vec3 q) {
+            return squared_norm(p - e.anchor) < squared_norm(q - e.anchor);
+        });
+        return {SiteId(static_cast<std::size_t>(nearest - surface.points.begin()))};
+    };
+    std::vector<double> length(n, std::numeric_limits<double>::infinity());
+    IndexedHeap heap;
+    heap.reset(n);
+    const auto key = [&length](std::uint32_t s) { return length[s]; };
+    for (const Endpoint& e : inlets)
+        for (const SiteId s : sites_of(e)) {
+            length[at(s)] = 0;
+            heap.push_or_decrease(s.value, key);
+        }
+    while (!heap.empty()) {
+        const std::uint32_t s = heap.pop(key);
+        for (std::uint32_t k = offsets[s]; k < offsets[s + 1]; ++k) {
+            const SiteId t = neighbours[k];
+            const double reached = length[s] + distance(surface.points[s], surface.points[at(t)]);
+            if (!(reached < length[at(t)])) continue;
+            length[at(t)] = reached;
+            heap.push_or_decrease(t.value, key);
+        }
+    }
+    std::vector<double> result(ends.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        for (const SiteId s : sites_of(ends[i])) result[i] = std::min(result[i], length[at(s)]);
+    return result;
 }
 
 void sort_by_cost(Endpoints& endpoints, const std::vector<double>& cost) {

@@ -1,10 +1,8 @@
-// A queue with stale entries: a vertex may wait in it more than once and counts when it first comes out.
+// The heap's ties go by place in it, which depends on the numbering alone: equal costs are rare, and only an order
+// among them.
 #include "engine/endpoints/shortest_paths.h"
 
-#include <functional>
-#include <queue>
-#include <utility>
-
+#include "engine/geometry/heap.h"
 #include "engine/geometry/segment_cost.h"
 
 namespace lumenline {
@@ -15,39 +13,50 @@ constexpr std::size_t kCancelStride = 1 << 14;  // vertices between two looks at
 
 }  // namespace
 
-ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, StageContext& context) {
+ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, PathSteps steps,
+                             StageContext& context) {
     const std::size_t count = complex.vertex_count();
     ShortestPaths paths;
     paths.cost.assign(count, std::numeric_limits<double>::infinity());
     paths.length.assign(count, 0);
     paths.parent.assign(count, VoronoiVertexId());
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    IndexedHeap heap;
+    heap.reset(count);
+    const auto key = [&paths](std::uint32_t v) { return paths.cost[v]; };
     for (const Seed& s : seeds)
         if (s.time < paths.cost[at(s.vertex)]) {
             paths.cost[at(s.vertex)] = s.time;
-            queue.emplace(s.time, s.vertex.value);
+            heap.push_or_decrease(s.vertex.value, key);
         }
     std::vector<bool> done(count, false);
-    for (std::size_t settled = 0; !queue.empty();) {
-        const auto [cost, v] = queue.top();
-        queue.pop();
-        if (done[v]) continue;
+    for (std::size_t settled = 0; !heap.empty();) {
+        const std::uint32_t v = heap.pop(key);
+        const double cost = paths.cost[v];
         done[v] = true;
         if (++settled % kCancelStride == 0) context.check_cancelled();
         const Vec3 from = complex.vertices[v];
         const double radius = complex.ball_radius[v];
-        for (const PolygonId p : complex.polygons_of(VoronoiVertexId(v)))
-            for (const VoronoiVertexId w : complex.polygon(p)) {
-                if (done[at(w)]) continue;
-                const double step = distance(from, complex.vertices[at(w)]);
-                const double reached = cost + segment_cost(step, radius + complex.ball_radius[at(w)]);
-                if (!(reached < paths.cost[at(w)])) continue;
-                paths.cost[at(w)] = reached;
-                paths.length[at(w)] = paths.length[v] + step;
-                paths.parent[at(w)] = VoronoiVertexId(v);
-                queue.emplace(reached, w.value);
+        const auto offer = [&](VoronoiVertexId w) {
+            if (done[at(w)] || !(cost < paths.cost[at(w)])) return;
+            const double step = distance(from, complex.vertices[at(w)]);
+            const double reached = cost + segment_cost(step, radius + complex.ball_radius[at(w)]);
+            if (!(reached < paths.cost[at(w)])) return;
+            paths.cost[at(w)] = reached;
+            paths.length[at(w)] = paths.length[v] + step;
+            paths.parent[at(w)] = VoronoiVertexId(v);
+            heap.push_or_decrease(w.value, key);
+        };
+        for (const PolygonId p : complex.polygons_of(VoronoiVertexId(v))) {
+            const auto loop = complex.polygon(p);
+            if (steps == PathSteps::kChords) {
+                for (const VoronoiVertexId w : loop) offer(w);
+                continue;
             }
+            std::size_t i = 0;
+            while (loop[i].value != v) ++i;
+            offer(loop[i == 0 ? loop.size() - 1 : i - 1]);
+            offer(loop[i + 1 == loop.size() ? 0 : i + 1]);
+        }
     }
     return paths;
 }
