@@ -43,17 +43,7 @@ bool solve_cholesky(Matrix& m, Vector& r) {
 
 }  // namespace
 
-SurfaceFit::SurfaceFit(const Surface& surface)
-    : surface_(surface), offsets_(surface.site_count() + 1, 0), stamp_(surface.site_count(), 0) {
-    // On a closed oriented surface every edge is run through once each way.
-    for (const auto& t : surface.triangles)
-        for (const SiteId s : t) ++offsets_[at(s) + 1];
-    for (std::size_t i = 0; i + 1 < offsets_.size(); ++i) offsets_[i + 1] += offsets_[i];
-    neighbours_.resize(offsets_.back());
-    std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-    for (const auto& t : surface.triangles)
-        for (std::size_t k = 0; k < 3; ++k) neighbours_[next[at(t[k])]++] = t[(k + 1) % 3];
-}
+SurfaceFit::SurfaceFit(const Surface& surface) : surface_(surface), ring_(surface), stamp_(surface.site_count(), 0) {}
 
 void SurfaceFit::gather(SiteId site) {
     ++turn_;
@@ -64,10 +54,10 @@ void SurfaceFit::gather(SiteId site) {
         stamp_[at(s)] = turn_;
         near_.push_back(s);
     };
-    for (const SiteId s : ring(site)) take(s);
+    for (const SiteId s : ring_.of(site)) take(s);
     const std::size_t first_ring = near_.size();
     for (std::size_t i = 0; i < first_ring; ++i)
-        for (const SiteId s : ring(near_[i])) take(s);
+        for (const SiteId s : ring_.of(near_[i])) take(s);
 }
 
 LocalShape SurfaceFit::at_site(SiteId site) {

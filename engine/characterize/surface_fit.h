@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/surface.h"
+#include "engine/geometry/site_neighbours.h"
 
 namespace lumenline {
 
@@ -30,14 +31,10 @@ public:
     [[nodiscard]] bool is_near(SiteId site) const { return stamp_[at(site)] == turn_; }
 
 private:
-    [[nodiscard]] std::span<const SiteId> ring(SiteId site) const {
-        return {neighbours_.data() + offsets_[at(site)], neighbours_.data() + offsets_[at(site) + 1]};
-    }
     void gather(SiteId site);
 
     const Surface& surface_;
-    std::vector<std::uint32_t> offsets_;  ///< (N+1) into neighbours_
-    std::vector<SiteId> neighbours_;
+    SiteNeighbours ring_;
     std::vector<std::uint32_t> stamp_;
     std::uint32_t turn_ = 0;
     std::vector<SiteId> near_;  ///< of the last site, without itself

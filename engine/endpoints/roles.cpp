@@ -10,6 +10,7 @@
 #include "engine/core/text.h"
 #include "engine/endpoints/shortest_paths.h"
 #include "engine/geometry/heap.h"
+#include "engine/geometry/site_neighbours.h"
 
 namespace lumenline {
 
@@ -79,7 +80,7 @@ std::vector<double> costs_from(const VoronoiComplex& complex, const Endpoints& i
                                StageContext& context) {
     std::vector<Seed> seeds;
     for (const Endpoint& e : inlets) seeds.insert(seeds.end(), e.seeds.begin(), e.seeds.end());
-    const ShortestPaths paths = shortest_paths(complex, seeds, PathSteps::kEdges, context);
+    const ShortestPaths paths = shortest_paths(complex, seeds, context);
     std::vector<double> cost(ends.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < ends.size(); ++i)
         for (const Seed& s : ends[i].seeds) cost[i] = std::min(cost[i], paths.cost[at(s.vertex)] + s.time);
@@ -88,16 +89,7 @@ std::vector<double> costs_from(const VoronoiComplex& complex, const Endpoints& i
 
 std::vector<double> wall_distances(const Surface& surface, const Endpoints& inlets, const Endpoints& ends) {
     const std::size_t n = surface.site_count();
-    // On a closed oriented surface every edge is run through once each way.
-    std::vector<std::uint32_t> offsets(n + 1, 0);
-    for (const auto& t : surface.triangles)
-        for (const SiteId s : t) ++offsets[at(s) + 1];
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    std::vector<SiteId> neighbours(offsets.back());
-    std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-    for (const auto& t : surface.triangles)
-        for (std::size_t k = 0; k < 3; ++k) neighbours[next[at(t[k])]++] = t[(k + 1) % 3];
-
+    const SiteNeighbours neighbours(surface);
     const auto sites_of = [&](const Endpoint& e) -> std::vector<SiteId> {
         if (!e.opening.is_none()) return surface.openings[at(e.opening)].loop;
         const auto nearest = std::min_element(surface.points.begin(), surface.points.end(), [&](Vec3 p, Vec3 q) {
@@ -115,10 +107,9 @@ std::vector<double> wall_distances(const Surface& surface, const Endpoints& inle
             heap.push_or_decrease(s.value, key);
         }
     while (!heap.empty()) {
-        const std::uint32_t s = heap.pop(key);
-        for (std::uint32_t k = offsets[s]; k < offsets[s + 1]; ++k) {
-            const SiteId t = neighbours[k];
-            const double reached = length[s] + distance(surface.points[s], surface.points[at(t)]);
+        const SiteId s(std::size_t{heap.pop(key)});
+        for (const SiteId t : neighbours.of(s)) {
+            const double reached = length[at(s)] + distance(surface.points[at(s)], surface.points[at(t)]);
             if (!(reached < length[at(t)])) continue;
             length[at(t)] = reached;
             heap.push_or_decrease(t.value, key);

@@ -13,8 +13,7 @@ constexpr std::size_t kCancelStride = 1 << 14;  // vertices between two looks at
 
 }  // namespace
 
-ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, PathSteps steps,
-                             StageContext& context) {
+ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, StageContext& context) {
     const std::size_t count = complex.vertex_count();
     ShortestPaths paths;
     paths.cost.assign(count, std::numeric_limits<double>::infinity());
@@ -36,27 +35,17 @@ ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed
         if (++settled % kCancelStride == 0) context.check_cancelled();
         const Vec3 from = complex.vertices[v];
         const double radius = complex.ball_radius[v];
-        const auto offer = [&](VoronoiVertexId w) {
-            if (done[at(w)] || !(cost < paths.cost[at(w)])) return;
-            const double step = distance(from, complex.vertices[at(w)]);
-            const double reached = cost + segment_cost(step, radius + complex.ball_radius[at(w)]);
-            if (!(reached < paths.cost[at(w)])) return;
-            paths.cost[at(w)] = reached;
-            paths.length[at(w)] = paths.length[v] + step;
-            paths.parent[at(w)] = VoronoiVertexId(v);
-            heap.push_or_decrease(w.value, key);
-        };
-        for (const PolygonId p : complex.polygons_of(VoronoiVertexId(v))) {
-            const auto loop = complex.polygon(p);
-            if (steps == PathSteps::kChords) {
-                for (const VoronoiVertexId w : loop) offer(w);
-                continue;
+        for (const PolygonId p : complex.polygons_of(VoronoiVertexId(v)))
+            for (const VoronoiVertexId w : complex.polygon(p)) {
+                if (done[at(w)] || !(cost < paths.cost[at(w)])) continue;
+                const double step = distance(from, complex.vertices[at(w)]);
+                const double reached = cost + segment_cost(step, radius + complex.ball_radius[at(w)]);
+                if (!(reached < paths.cost[at(w)])) continue;
+                paths.cost[at(w)] = reached;
+                paths.length[at(w)] = paths.length[v] + step;
+                paths.parent[at(w)] = VoronoiVertexId(v);
+                heap.push_or_decrease(w.value, key);
             }
-            std::size_t i = 0;
-            while (loop[i].value != v) ++i;
-            offer(loop[i == 0 ? loop.size() - 1 : i - 1]);
-            offer(loop[i + 1 == loop.size() ? 0 : i + 1]);
-        }
     }
     return paths;
 }

@@ -12,14 +12,8 @@
 
 namespace lumenline {
 
-/// What a path may be made of.
-enum class PathSteps : std::uint8_t {
-    kEdges,   ///< edges of polygons: a third of the time
-    kChords,  ///< straight segments between any two vertices of one polygon
-};
-
-/// Least costs from seeds over the edges or chords of the complex's polygons, with the exact integral of 1/R along
-/// each.
+/// Least costs from seeds over the chords of the complex's polygons: straight segments between any two
+/// vertices of one polygon, with the exact integral of 1/R along each.
 struct ShortestPaths {
     std::vector<double> cost;             ///< (V) dimensionless; +inf = unreached
     std::vector<double> length;           ///< (V) of the path of least cost [length]
@@ -28,10 +22,9 @@ struct ShortestPaths {
     [[nodiscard]] bool reaches(std::size_t v) const { return cost[v] < std::numeric_limits<double>::infinity(); }
 };
 
-/// Dijkstra's algorithm. Over chords the costs lie above the arrival times of the march by a few percent: good
+/// Dijkstra's algorithm. The costs lie above the arrival times of the march by a few percent: good
 /// enough for order and topology, at a fraction of the code.
-/// @cost O(E log V), E the steps in all polygons
-ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, PathSteps steps,
-                             StageContext& context);
+/// @cost O(E log V), E the chords of all polygons
+ShortestPaths shortest_paths(const VoronoiComplex& complex, std::span<const Seed> seeds, StageContext& context);
 
 }  // namespace lumenline

@@ -120,9 +120,9 @@ public:
           stamp_(complex.vertex_count(), 0) {}
 
     std::vector<Tip> run() {
-        const ShortestPaths first = shortest_paths(complex_, largest_balls(complex_), PathSteps::kChords, context_);
+        const ShortestPaths first = shortest_paths(complex_, largest_balls(complex_), context_);
         const std::vector<Seed> roots = farthest_of_each_part(first);
-        const ShortestPaths paths = shortest_paths(complex_, roots, PathSteps::kChords, context_);
+        const ShortestPaths paths = shortest_paths(complex_, roots, context_);
         const std::vector<Vertex> descending = by_descending_length(paths);
         const std::vector<double> ends = branch_ends(complex_, paths, descending);
         for (const Seed& root : roots) cover_root(first, root.vertex.value);
