@@ -87,6 +87,8 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     const std::map<std::string, EndpointMode> modes{
         {"auto", EndpointMode::kAuto}, {"boundaries", EndpointMode::kBoundaries}, {"points", EndpointMode::kPoints}};
     const std::map<std::string, Refinement> refinements{{"none", Refinement::kNone}, {"path", Refinement::kPath}};
+    const std::map<std::string, ComponentPolicy> policies{
+        {"fail", ComponentPolicy::kFail}, {"largest", ComponentPolicy::kLargest}, {"each", ComponentPolicy::kEach}};
     const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
     verb.add_option("--mode", o.endpoints.mode, "How endpoints are found: auto, boundaries, points")
         ->transform(CLI::CheckedTransformer(modes))
@@ -106,6 +108,22 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     verb.add_flag("--skip-self-intersections", arguments.skip_self_intersections, "Do not look for self-intersections");
+    verb.add_flag("!--keep-faces", o.condition.drop_faces, "Refuse degenerate and repeated triangles");
+    verb.add_flag("!--keep-orientation", o.condition.orient_faces, "Refuse flipped triangles and inward components");
+    verb.add_flag("!--keep-non-manifold", o.condition.split_non_manifold, "Refuse edges of more than two triangles");
+    verb.add_flag("!--keep-holes", o.condition.fill_holes, "Take every boundary loop as an opening");
+    verb.add_flag("!--keep-self-intersections", o.condition.repair_self_intersections,
+                  "Report triangles that cross each other, repair none");
+    verb.add_flag("!--keep-sampling", o.condition.refine_undersampled, "Add no sites where triangles are large");
+    verb.add_option("--speck-share", o.condition.speck_share, "Remove components below this share of the area")
+        ->check(CLI::Range(0.0, 0.5))
+        ->capture_default_str();
+    verb.add_option("--components", o.condition.components, "Several components: fail, largest or each")
+        ->transform(CLI::CheckedTransformer(policies))
+        ->default_str("each");
+    verb.add_option("--decimate", o.condition.decimate, "Coarsen by at most this share of the diagonal; 0 = off")
+        ->check(CLI::Range(0.0, 0.1))
+        ->capture_default_str();
 }
 
 }  // namespace

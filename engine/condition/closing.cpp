@@ -94,17 +94,17 @@ void append_patch(ClosedSurface& closed, const Loop& loop, const Patch& patch, O
 }  // namespace
 
 ClosedSurface close_wall(const WallMesh& wall, const std::vector<std::uint32_t>& component,
-                         const std::vector<FilledHole>& holes, const std::vector<OpeningPlan>& plans,
-                         double extension_radii, const std::vector<char>& blocked, StageContext& context) {
+                         const std::vector<OpeningPlan>& plans, double extension_radii,
+                         const std::vector<char>& blocked, StageContext& context) {
     ClosedSurface closed = copy_wall(wall, component);
-    for (const FilledHole& hole : holes) append_patch(closed, hole.loop, hole.patch, OpeningId());
     Obstacles obstacles(wall, plans);
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const OpeningPlan& plan = plans[i];
         const Closing closing = close_opening(plan, extension_radii * plan.radius, blocked[i] != 0, obstacles, context);
         obstacles.add(plan, closing.patch);
         append_patch(closed, plan.loop, closing.patch, OpeningId(i));
-        Opening opening{plan.frame.origin, plan.frame.normal, plan.radius, closing.extension_length, {}};
+        Opening opening{plan.frame.origin,           plan.frame.normal, plan.radius, closing.extension_length, {},
+                        component[plan.loop.front()]};
         for (const std::uint32_t v : plan.loop) opening.loop.emplace_back(v);
         closed.surface.openings.push_back(std::move(opening));
     }

@@ -73,6 +73,8 @@ struct ModelSummary {
     std::size_t inlets = 0, outlets = 0, centerlines = 0;
     double length = 0;  ///< sum of the lines' lengths; a stretch that lines share counts for each [length]
     double radius_min = 0, radius_mean = 0, radius_max = 0;  ///< along all lines, mean weighted by arc length [length]
+    double diagonal = 0;          ///< of the wall's bounding box; 0 = no surface was made [length]
+    double edge_over_radius = 0;  ///< the wall's median edge over the lines' median radius; 0 = no line
     double seconds = 0;
 };
 

@@ -20,6 +20,7 @@ struct Opening {
     double radius = 0;            ///< of the circle of the loop's area [length]
     double extension_length = 0;  ///< how far the lumen was extended beyond the plane; 0 = plain cap [length]
     std::vector<SiteId> loop;     ///< the boundary sites, in order around the opening
+    std::uint32_t component = 0;  ///< of the surface, from 0
 };
 
 /// Closed, oriented, manifold triangle surface of a lumen, with outward orientation.

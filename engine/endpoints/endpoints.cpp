@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/text.h"
 #include "engine/endpoints/anchor.h"
@@ -111,7 +113,10 @@ public:
                                                    " point is given: state `inlets` and `outlets` for this model");
 
         for (const Vec3& p : options_.inlets) add_wish(p, EndpointRole::kInlet);
-        if (options_.inlets.empty()) add_largest(context);
+        if (options_.inlets.empty()) {
+            for (const std::vector<OpeningId>& openings : openings_with_an_inlet(context))
+                add_largest(openings, context);
+        }
         const std::size_t inlet_count = endpoints_.size();
         for (const Vec3& p : options_.outlets) add_wish(p, EndpointRole::kOutlet);
         if (options_.outlets.empty())
@@ -143,14 +148,40 @@ private:
         endpoints_.push_back(from_opening(surface_, complex_, opening, role));
     }
 
-    void add_largest(StageContext& context) {
+    /// Groups of openings of which each gets an inlet: those of each component with two or more. A component with one
+    /// opening has no line; its opening is left out. All openings are one group if no component has two.
+    std::vector<std::vector<OpeningId>> openings_with_an_inlet(StageContext& context) {
+        std::vector<OpeningId> all;
+        std::map<std::uint32_t, std::vector<OpeningId>> groups;
+        for (std::size_t i = 0; i < surface_.openings.size(); ++i) {
+            all.emplace_back(i);
+            groups[surface_.openings[i].component].emplace_back(i);
+        }
+        const auto alone = [](const auto& group) { return group.second.size() == 1; };
+        const auto lonely = static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), alone));
+        if (groups.size() < 2 || !options_.outlets.empty() || lonely == groups.size()) return {all};
+        std::vector<std::vector<OpeningId>> result;
+        for (const auto& group : groups) {
+            if (alone(group))
+                taken_[at(group.second.front())] = true;
+            else
+                result.push_back(group.second);
+        }
+        if (lonely > 0)
+            context.warn("component_without_line",
+                         counted(lonely, "component") + " with one opening, which no line can lead through",
+                         static_cast<double>(lonely), 0);
+        return result;
+    }
+
+    void add_largest(const std::vector<OpeningId>& ids, StageContext& context) {
         const auto& openings = surface_.openings;
-        const auto larger = [](const Opening& a, const Opening& b) { return a.radius < b.radius; };
-        const auto largest = std::max_element(openings.begin(), openings.end(), larger);
-        const OpeningId id(static_cast<std::size_t>(largest - openings.begin()));
+        const auto larger = [&](OpeningId a, OpeningId b) { return openings[at(a)].radius < openings[at(b)].radius; };
+        const OpeningId id = *std::max_element(ids.begin(), ids.end(), larger);
+        const Opening* largest = &openings[at(id)];
         double second = 0;
-        for (const Opening& o : openings)
-            if (&o != &*largest) second = std::max(second, o.radius);
+        for (const OpeningId o : ids)
+            if (o != id) second = std::max(second, openings[at(o)].radius);
         if (second > 0 && largest->radius < kClearLargest * second)
             context.warn("inlet_not_clear",
                          "the largest opening (radius " + short_text(largest->radius) +
