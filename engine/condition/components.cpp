@@ -174,9 +174,14 @@ void remove_fragments(WallMesh& wall, WallTopology& topology, StageContext& cont
 void remove_specks(WallMesh& wall, WallTopology& topology, double share, StageContext& context) {
     if (topology.component_count < 2) return;
     const std::vector<ComponentFacts> facts = wall_facts(wall, topology);
-    const double limit = share * total_area(facts);
+    const double area = total_area(facts), limit = share * area;
     std::vector<char> keep;
-    for (const ComponentFacts& c : facts) keep.push_back(c.area >= limit);
+    double specks = 0;
+    for (const ComponentFacts& c : facts) {
+        keep.push_back(c.area >= limit);
+        specks += c.area < limit ? c.area : 0;
+    }
+    if (specks > kMostScraps * area) return;
     const Removed removed = keep_components(wall, topology, facts, keep);
     if (removed.components > 0)
         context.warn("speck_removed",

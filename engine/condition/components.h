@@ -17,7 +17,8 @@ void remove_fragments(WallMesh& wall, WallTopology& topology, StageContext& cont
 ///         or when a component is a sheet hardly larger than its hole
 void refuse_loose_triangles(const WallMesh& wall, const WallTopology& topology);
 
-/// Removes components of less than `share` of the area. Warns (speck_removed).
+/// Removes components of less than `share` of the area. Warns (speck_removed). Removes none if they are more than a
+/// twentieth of the area: then the surface was never joined.
 void remove_specks(WallMesh& wall, WallTopology& topology, double share, StageContext& context);
 
 /// Keeps the components that `policy` asks for. Warns (component_dropped).

@@ -26,7 +26,8 @@ double area_of(const WallMesh& wall, const Corners& t) {
     return norm(cross(wall.points[t[1]] - wall.points[t[0]], wall.points[t[2]] - wall.points[t[0]])) / 2;
 }
 
-// Groups of crossing triangles that share corners or cross each other, as lists of triangles.
+// Groups of crossing triangles that hang together by common corners, as lists of triangles: of a spike and the wall
+// that it pierces, each is a group, and to take out one of them is enough.
 std::vector<std::vector<std::uint32_t>> clusters_of(const WallMesh& wall,
                                                     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     std::vector<std::uint32_t> crossing;
@@ -46,10 +47,6 @@ std::vector<std::vector<std::uint32_t>> clusters_of(const WallMesh& wall,
         const std::uint32_t a = root(i), b = root(j);
         parent[std::max(a, b)] = std::min(a, b);
     };
-    const auto place = [&](std::uint32_t t) {
-        return static_cast<std::uint32_t>(std::lower_bound(crossing.begin(), crossing.end(), t) - crossing.begin());
-    };
-    for (const auto& [a, b] : pairs) join(place(a), place(b));
     std::vector<std::uint32_t> last(wall.points.size(), kDropped);
     for (std::uint32_t i = 0; i < crossing.size(); ++i)
         for (const std::uint32_t v : wall.triangles[crossing[i]]) {

@@ -94,7 +94,8 @@ void measure_vessels(const WallMesh& wall, const std::vector<Loop>& loops, std::
     for (std::uint32_t t = 0; t < wall.triangles.size(); ++t) {
         const Corners& c = wall.triangles[t];
         const std::uint32_t i = std::min({loop_of[c[0]], loop_of[c[1]], loop_of[c[2]]});
-        if (i != kDropped) radii[i].push_back(radius.at(t, largest));
+        if (i == kDropped) continue;
+        if (const double r = radius.at(t, largest); r < largest) radii[i].push_back(r);
     }
     for (std::size_t i = 0; i < loops.size(); ++i) {
         if (radii[i].empty()) continue;

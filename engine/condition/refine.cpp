@@ -13,7 +13,7 @@
 // An empty ball of radius R rests on sites and bulges through the triangles between them: with c the clearance
 // and rho the covering radius of a triangle, R^2 = c^2 + rho^2. So sampling is judged by rho against the local
 // radius, and the share by which balls are too large follows; it is 5 % at about twelve edges around a round tube,
-// 11 % at eight.
+// 11 % at eight. Coarse triangles come in patches: testing some and then the neighbours of those found is enough.
 //
 // The new point of an edge lies on the circular arc that leaves both ends at the angle of their tangent planes,
 // which is exact on spheres and along the circles of tubes, at any coarseness; where the ends disagree, as along an S,
@@ -24,13 +24,14 @@ namespace lumenline {
 namespace {
 
 constexpr int kMostRounds = 3;
+constexpr std::uint32_t kSample = 4;    // of the triangles one in so many is tested, and all around one found coarse
 constexpr double kMostGap = 0.05;       // (R - clearance) / R that is let pass
 constexpr double kMostBend = 1.05;      // radians from chord to tangent; more is an edge, not a curve
 constexpr std::size_t kMostGrowth = 4;  // points added per point of before, at most
 constexpr std::uint32_t kUnsplit = kDropped;
 
-// rho / R at which R^2 = ((1 - gap) R)^2 + rho^2.
-const double kMostCover = std::sqrt(1 - (1 - kMostGap) * (1 - kMostGap));
+// rho / r at which a ball of radius R^2 = r^2 + rho^2 reaches beyond the wall by that share, r being the clearance.
+const double kMostCover = std::sqrt(1 / ((1 - kMostGap) * (1 - kMostGap)) - 1);
 
 std::vector<Vec3> vertex_normals(const WallMesh& wall) {
     std::vector<Vec3> normals(wall.points.size());
@@ -61,12 +62,16 @@ Vec3 bulge(Vec3 a, Vec3 b, Vec3 normal_a, Vec3 normal_b) {
     return (0.5 * length * std::tan(0.25 * (at_a + at_b))) * up;
 }
 
+struct Coarse {
+    std::uint32_t triangle = 0;
+    double radius = 0, cover = 0;
+};
+
 class Refiner {
 public:
     Refiner(WallMesh& wall, WallTopology& topology) : wall_(wall), topology_(topology) {
         refined_.first_added = static_cast<std::uint32_t>(wall.points.size());
-        active_.resize(wall.triangles.size());
-        for (std::uint32_t t = 0; t < active_.size(); ++t) active_[t] = t;
+        for (std::uint32_t t = 0; t < wall.triangles.size(); t += kSample) active_.push_back(t);
     }
 
     void run(StageContext& context) {
@@ -91,31 +96,53 @@ public:
 private:
     // Marks the edges to halve. @returns whether there are any
     bool find_coarse(bool first, StageContext& context) {
-        const WallRadius radius(wall_);
-        std::vector<double> found(active_.size(), 0), cover(active_.size(), 0);
-        context.parallel_for(active_.size(), 1024, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Corners& t = wall_.triangles[active_[i]];
-                cover[i] = covering_radius(wall_.points[t[0]], wall_.points[t[1]], wall_.points[t[2]]);
-                const double enough = cover[i] / kMostCover;
-                if (!(enough > 0) || !std::isfinite(enough)) continue;
-                if (const double r = radius.at(active_[i], enough); r < enough) found[i] = r;
-            }
-        });
         pairs_ = pair_half_edges(wall_.triangles, wall_.points.size());
         split_at_.assign(3 * wall_.triangles.size(), kUnsplit);
+        tested_.assign(wall_.triangles.size(), 0);
+        const WallRadius radius(wall_);
         bool any = false;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            if (found[i] == 0) continue;
-            any |= mark(active_[i], found[i]);
-            if (!first) continue;
-            ++coarse_triangles_;
-            if (cover[i] > worst_ * found[i]) {
-                worst_ = cover[i] / found[i];
-                worst_at_ = wall_.points[wall_.triangles[active_[i]][0]];
+        std::vector<std::uint32_t> frontier = std::move(active_);
+        while (!frontier.empty()) {
+            for (const std::uint32_t t : frontier) tested_[t] = 1;
+            const std::vector<Coarse> coarse = measure(frontier, radius, context);
+            frontier.clear();
+            for (const Coarse& c : coarse) {
+                any |= mark(c.triangle, c.radius);
+                if (!first) continue;
+                ++coarse_triangles_;
+                if (c.cover > worst_ * c.radius) {
+                    worst_ = c.cover / c.radius;
+                    worst_at_ = wall_.points[wall_.triangles[c.triangle][0]];
+                }
+                add_neighbours(c.triangle, frontier);
             }
         }
         return any;
+    }
+
+    // Triangles of `list` with a covering radius of more than `kMostCover` local radii.
+    std::vector<Coarse> measure(const std::vector<std::uint32_t>& list, const WallRadius& radius,
+                                StageContext& context) const {
+        std::vector<Coarse> all(list.size());
+        context.parallel_for(list.size(), 1024, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Corners& t = wall_.triangles[list[i]];
+                const double cover = covering_radius(wall_.points[t[0]], wall_.points[t[1]], wall_.points[t[2]]);
+                const double enough = cover / kMostCover;
+                if (!(enough > 0) || !std::isfinite(enough)) continue;
+                if (const double r = radius.at(list[i], enough); r < enough) all[i] = {list[i], r, cover};
+            }
+        });
+        std::erase_if(all, [](const Coarse& c) { return c.radius == 0; });
+        return all;
+    }
+
+    void add_neighbours(std::uint32_t t, std::vector<std::uint32_t>& frontier) {
+        for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+            if (pairs_.opposite[h] == kNoHalfEdge) continue;
+            const std::uint32_t neighbour = pairs_.opposite[h] / 3;
+            if (std::exchange(tested_[neighbour], 1) == 0) frontier.push_back(neighbour);
+        }
     }
 
     // Marks the sides of triangle t that are longer than those of the equilateral triangle that would do.
@@ -252,6 +279,7 @@ private:
     WallMesh& wall_;
     WallTopology& topology_;
     Refined refined_;
+    std::vector<char> tested_;           // triangles of this round
     std::vector<std::uint32_t> active_;  // triangles that may still be too large
     HalfEdgePairs pairs_;
     std::vector<std::uint32_t> split_at_;  // per half-edge: point on it; 0 = marked, kUnsplit = stays

@@ -22,10 +22,10 @@ struct Refined {
 bool flatten_points(WallMesh& wall, Refined& refined, std::vector<char> flat);
 
 /// Adds points where triangles are large for the vessel: where the largest empty ball would reach beyond the
-/// wall by more than a twentieth of its radius. Edges are halved, at most three times, at points of the curved
-/// surface that the normals at their ends suggest; added points have no `input_vertex`. Loops and components
-/// are kept up to date. Notes undersampled_refined with the count of triangles, points and the coarsest place.
-/// Needs outward orientation.
+/// wall by more than a twentieth of its radius. Edges are halved, at most three times, at points
+/// of the curved surface that the normals at their ends suggest; added points have no `input_vertex`. Loops and
+/// components are kept up to date. Notes undersampled_refined with the count of triangles, points and the coarsest
+/// place. Needs outward orientation.
 /// @cost a tree of boxes and a query per triangle
 Refined refine_undersampled(WallMesh& wall, WallTopology& topology, StageContext& context);
 
