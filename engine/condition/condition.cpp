@@ -1,6 +1,8 @@
 #include "engine/condition/condition.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -60,6 +62,19 @@ void warn_of_crossings(const Surface& surface, const CrossingPairs& pairs, Stage
                  counted(pairs.size(), "pair") + (pairs.size() < kMostPairs ? "" : " or more") +
                      " of triangles cross each other, the first at " + short_text(surface.points[at(t[0])]),
                  static_cast<double>(pairs.size()), 0);
+}
+
+// Largest coordinate of the vertices that triangles use, per largest of all: the rounding of a file is stated for the
+// latter.
+double used_extent(const TriangleSoup& soup) {
+    const auto largest = [](double so_far, Vec3 p) {
+        return std::max({so_far, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    };
+    double all = 0, used = 0;
+    for (const Vec3& p : soup.points) all = largest(all, p);
+    for (const Corners& t : soup.triangles)
+        for (const std::uint32_t v : t) used = largest(used, soup.points[v]);
+    return all > 0 && std::isfinite(all) ? used / all : 1;
 }
 
 WallMesh prepare_wall(const TriangleSoup& soup, const ConditionOptions& options, WallTopology& topology,
@@ -158,7 +173,7 @@ Surface condition_surface(const TriangleSoup& soup, const ConditionOptions& opti
     Surface& surface = c.closed.surface;
     warn_of_crossings(surface, c.crossings, context);
     check_components(surface, c.closed.component, c.topology.component_count, context);
-    surface.coordinate_rounding = soup.coordinate_rounding;
+    surface.coordinate_rounding = soup.coordinate_rounding * used_extent(soup);
     surface.diagonal = bounding_diagonal(c.wall.points);
     surface.median_edge = median_edge(c.wall);
     compute_normals(surface, context);

@@ -68,10 +68,6 @@ public:
     // The wall without the patch of `rings` rings around `triangles`, filled; false if that is no local matter.
     bool fill(const std::vector<std::uint32_t>& triangles, int rings, WallMesh& result) const {
         const std::vector<char> removed = grow(triangles, rings);
-        double area = 0;
-        for (std::size_t t = 0; t < removed.size(); ++t)
-            if (removed[t]) area += area_of(wall_, wall_.triangles[t]);
-        if (area > kMostArea * area_) return false;
         const Loop loop = rim(removed);
         if (loop.size() < 3) return false;
         std::vector<Vec3> corners;
@@ -89,6 +85,10 @@ public:
         const auto vertex = [&](std::uint32_t v) { return v < n ? loop[v] : first + v - n; };
         for (const Corners& t : patch->triangles)
             result.triangles.push_back({vertex(t[0]), vertex(t[1]), vertex(t[2])});
+        double area = 0;  // of the patch: a spike that it replaces may be larger than all that is around it
+        for (std::size_t t = result.triangles.size() - patch->triangles.size(); t < result.triangles.size(); ++t)
+            area += area_of(result, result.triangles[t]);
+        if (area > kMostArea * area_) return false;
         drop_unused_vertices(result);
         return true;
     }

@@ -6,7 +6,9 @@
 // A shrinking ball: from the largest radius asked for, the ball that touches the triangle's middle from
 // inside shrinks until it also touches the nearest point of the wall found within it. The middle of a
 // triangle and its own plane are used, not a vertex and its mean normal: at the corner of a tube of few
-// sides every ball along the mean normal cuts the two sides next to it, however small it is.
+// sides every ball along the mean normal cuts the two sides next to it, however small it is. What counts is the
+// last radius that an opposite wall gave: beside the middle of a flat side, or beside the rim of a flat end, the ball
+// shrinks further until it fits into the corner, and that says nothing of the vessel.
 
 namespace lumenline {
 namespace {
@@ -39,18 +41,17 @@ double WallRadius::at(std::uint32_t t, double largest) const {
     const Vec3 p = origin + (1.0 / 3) * ((wall_.points[c[1]] - origin) + (wall_.points[c[2]] - origin));
     const Vec3 outward = unit_normal(t);
     if (outward == Vec3{}) return largest;
-    double r = largest;
-    bool opposite = true;
+    double r = largest, found = largest;
     for (int step = 0; step < kMostSteps; ++step) {
         const auto nearest = distance_.nearest(p - r * outward, p, TriangleId(std::size_t{t}));
-        if (nearest.distance >= (1 - kSlack) * r) return opposite ? r : largest;
+        if (nearest.distance >= (1 - kSlack) * r) return found;
         const Vec3 d = nearest.point - p;
         const double depth = -dot(d, outward);
-        if (!(depth > 0)) return largest;
+        if (!(depth > 0)) return found;
         r = std::min((1 - kSlack / 2) * r, squared_norm(d) / (2 * depth));
-        opposite = dot(outward, unit_normal(lumenline::at(nearest.triangle))) < kOppositeCosine;
+        if (dot(outward, unit_normal(lumenline::at(nearest.triangle))) < kOppositeCosine) found = r;
     }
-    return largest;
+    return found;
 }
 
 }  // namespace lumenline

@@ -298,7 +298,7 @@ void add_whole_shapes(std::vector<Damage>& list) {
         add(s, tetrahedron(s.points[0] + Vec3{2 * size, 0, 0}, 0.002 * size));
     }));
     list.push_back(
-        edited("a component inside", "obj", {true, false, {"nested_components"}}, [](TriangleSoup& s, Random& r) {
+        edited("a component inside", "obj", {true, true, {"nested_components"}}, [](TriangleSoup& s, Random& r) {
             const std::size_t t = pick(s, r);
             add(s, tetrahedron(middle_of(s, t) - 2 * edge_of(s, t) * normal_of(s, t), 0.3 * edge_of(s, t)));
         }));
@@ -310,7 +310,7 @@ void add_whole_shapes(std::vector<Damage>& list) {
         return TriangleSoup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, "", "", 0};
     }));
     list.push_back(shape("a Moebius strip", "obj", {false, false, {"non_manifold", "open_boundary"}}, moebius_strip));
-    list.push_back(shape("a tube that crosses itself", "off", {false, true, {}}, crossing_tube));
+    list.push_back(shape("a tube that crosses itself", "off", {false, true, {"endpoint_outside"}}, crossing_tube));
     list.push_back({"no bytes", "ply", {false, false, {"file_format"}}, [](const TriangleSoup&, Random&) {
                         return std::string();
                     }});
