@@ -32,6 +32,7 @@ namespace {
 
 using CrossingPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
+constexpr int kMostAttempts = 4;             // to flatten refined sites that cross something
 constexpr std::size_t kMostPairs = 1000000;  // of crossing triangles, to bound memory on hopeless input
 
 CrossingPairs find_crossings(const Surface& surface) {
@@ -144,12 +145,13 @@ Closing close_prepared(const WallMesh& wall, const WallTopology& topology, const
     context.check_cancelled();
     if (options.refine_undersampled) c.refined = refine_undersampled(c.wall, c.topology, context);
     const std::size_t findings = context.diagnostics().size();
-    int rings = 0;  // one more every time, so that few attempts are enough
-    do {
+    int rings = 0;
+    for (int attempt = 0;; ++attempt) {
         context.retract(findings, context.diagnostics().size());
         close_openings(c, options, context);
-    } while (!c.crossings.empty() && flatten_crossing_sites(c, rings++));
-    return c;
+        if (c.crossings.empty() || attempt == kMostAttempts || !flatten_crossing_sites(c, rings)) return c;
+        rings = 2 * rings + 2;  // wider every time; crossings of the wall itself stay, however often
+    }
 }
 
 }  // namespace

@@ -80,20 +80,16 @@ std::vector<LoopShape> measure_loops(const WallMesh& wall, const std::vector<Loo
     return shapes;
 }
 
-// Radius of the lumen behind each loop that lies in the wall or has few edges, where it decides.
+// Radius of the lumen behind each loop that lies in the wall, where it decides.
 void measure_vessels(const WallMesh& wall, const std::vector<Loop>& loops, std::vector<LoopShape>& shapes) {
-    const auto matters = [&](std::size_t i) {
-        return shapes[i].wall_cosine > kHoleCosine || loops[i].size() < kFewestOpeningEdges;
-    };
-    bool any = false;
-    for (std::size_t i = 0; i < loops.size(); ++i) any |= matters(i);
-    if (!any) return;
+    const auto in_wall = [](const LoopShape& s) { return s.wall_cosine > kHoleCosine; };
+    if (std::none_of(shapes.begin(), shapes.end(), in_wall)) return;
     const WallRadius radius(wall);
     const double largest = bounding_diagonal(wall.points);
     std::vector<std::uint32_t> loop_of(wall.points.size(), kDropped);
     for (std::uint32_t i = 0; i < loops.size(); ++i)
         for (const std::uint32_t v : loops[i])
-            if (matters(i)) loop_of[v] = i;
+            if (in_wall(shapes[i])) loop_of[v] = i;
     std::vector<std::vector<double>> radii(loops.size());
     for (std::uint32_t t = 0; t < wall.triangles.size(); ++t) {
         const Corners& c = wall.triangles[t];
@@ -146,8 +142,7 @@ Patch star(const std::vector<Vec3>& corners) {
 
 bool is_tiny_hole(const WallMesh& wall, const Loop& loop, const LoopShape& shape, double median_edge) {
     if (loop.size() >= kFewestOpeningEdges || extent(wall, loop) >= kTinyExtent * median_edge) return false;
-    return loop.size() == 3 || shape.roundness < kLeastRoundness || shape.wall_cosine > kHoleCosine ||
-           shape.radius < kHoleShare * shape.vessel_radius;
+    return loop.size() == 3 || shape.roundness < kLeastRoundness || shape.wall_cosine > kHoleCosine;
 }
 
 // A loop in the wall, small for the vessel; an even circle of many edges was cut there on purpose.

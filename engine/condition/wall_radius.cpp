@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSlack = 0.02;           // of the radius, within which a ball counts as free
 constexpr int kMostSteps = 40;            // of shrinking; a handful is usual
-constexpr double kOppositeCosine = -0.3;  // between the normals of the two walls; a tube of three sides has -0.5
+constexpr double kOppositeCosine = -0.6;  // between the normals of the two walls; in a tube of five sides -0.81
 
 std::vector<std::array<SiteId, 3>> as_sites(const std::vector<Corners>& triangles) {
     std::vector<std::array<SiteId, 3>> sites;

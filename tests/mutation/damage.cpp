@@ -260,7 +260,7 @@ void add_vertex_damages(std::vector<Damage>& list) {
         [](TriangleSoup& s, Random& r) { weld_corner(s, s.triangles[pick(s, r)][0], s.triangles[pick(s, r)][0]); }));
     list.push_back(
         edited("corner torn off by a hair", "ply", mended, [](TriangleSoup& s, Random& r) { open_seam(s, r, 1e-9); }));
-    list.push_back(edited("corner torn off", "obj", {true, true, {"open_boundary"}},
+    list.push_back(edited("corner torn off", "obj", {true, true, {"open_boundary", "non_manifold"}},
                           [](TriangleSoup& s, Random& r) { open_seam(s, r, 0.3); }));
     list.push_back(edited("vertex pulled out", "off", {true, true, {}},
                           [](TriangleSoup& s, Random& r) { move_vertex(s, r, 1.5); }));
