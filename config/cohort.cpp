@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "config/document.h"
@@ -55,7 +56,20 @@ PipelineOptions read_options(const MapReader& top) {
     ConditionOptions& c = options.condition;
     c.weld_tolerance = condition.number("weld_tolerance").value_or(c.weld_tolerance);
     c.extension_radii = condition.number("extension_radii").value_or(c.extension_radii);
-    c.check_self_intersections = condition.boolean("check_self_intersections").value_or(c.check_self_intersections);
+    for (const auto& [name, member] : std::initializer_list<std::pair<const char*, bool ConditionOptions::*>>{
+             {"check_self_intersections", &ConditionOptions::check_self_intersections},
+             {"drop_faces", &ConditionOptions::drop_faces},
+             {"orient_faces", &ConditionOptions::orient_faces},
+             {"split_non_manifold", &ConditionOptions::split_non_manifold},
+             {"fill_holes", &ConditionOptions::fill_holes},
+             {"repair_self_intersections", &ConditionOptions::repair_self_intersections},
+             {"refine_undersampled", &ConditionOptions::refine_undersampled}})
+        c.*member = condition.boolean(name).value_or(c.*member);
+    c.speck_share = condition.number("speck_share").value_or(c.speck_share);
+    c.components = enumerated(condition.choice("components"), c.components,
+                              std::array{ComponentPolicy::kFail, ComponentPolicy::kLargest, ComponentPolicy::kEach},
+                              components_name);
+    c.decimate = condition.number_or_word("decimate").value_or(c.decimate);
 
     const MapReader centerlines = top.section("centerlines");
     TraceOptions& t = options.trace;

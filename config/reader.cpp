@@ -131,6 +131,15 @@ std::optional<double> MapReader::number(std::string_view key) const {
     return parse_number(place(*entry), unquoted(*entry, "a number").text, info(key));
 }
 
+std::optional<double> MapReader::number_or_word(std::string_view key) const {
+    const YamlEntry* entry = find(key);
+    if (entry == nullptr) return std::nullopt;
+    const KeyInfo& asked = info(key);
+    const std::vector<std::string_view> words = choice_words(asked);
+    if (std::ranges::find(words, scalar(*entry, "a number").text) != words.end()) return 0;
+    return parse_number(place(*entry), unquoted(*entry, "a number").text, asked);
+}
+
 std::optional<bool> MapReader::boolean(std::string_view key) const {
     const YamlEntry* entry = find(key);
     if (entry == nullptr) return std::nullopt;

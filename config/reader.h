@@ -33,6 +33,8 @@ public:
     [[nodiscard]] std::optional<std::string> choice(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> choices(std::string_view key) const;  ///< one or a list; empty when absent
     [[nodiscard]] std::optional<double> number(std::string_view key) const;
+    /// A number; the key's word for "none" gives 0.
+    [[nodiscard]] std::optional<double> number_or_word(std::string_view key) const;
     [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
     /// A whole number; the key's word for "let the program choose" gives 0.
     [[nodiscard]] std::optional<int> integer_or_word(std::string_view key) const;

@@ -113,6 +113,8 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
                                                     {"points", EndpointMode::kPoints}};
     const std::map<std::string, Refinement> refinements{
         {"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}};
+    const std::map<std::string, ComponentPolicy> policies{
+        {"fail", ComponentPolicy::kFail}, {"largest", ComponentPolicy::kLargest}, {"each", ComponentPolicy::kEach}};
     const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
     verb.add_option("--mode", arguments.modes,
                     "Where ends come from: auto, boundaries, caps, tips, points; several with commas between them")
@@ -142,6 +144,22 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     verb.add_flag("--skip-self-intersections", arguments.skip_self_intersections, "Do not look for self-intersections");
     verb.add_flag("--skip-characterization", arguments.skip_characterization,
                   "Do not relate the surface's points to the centerlines");
+    verb.add_flag("!--keep-faces", o.condition.drop_faces, "Refuse degenerate and repeated triangles");
+    verb.add_flag("!--keep-orientation", o.condition.orient_faces, "Refuse flipped triangles and inward components");
+    verb.add_flag("!--keep-non-manifold", o.condition.split_non_manifold, "Refuse edges of more than two triangles");
+    verb.add_flag("!--keep-holes", o.condition.fill_holes, "Take every boundary loop as an opening");
+    verb.add_flag("!--keep-self-intersections", o.condition.repair_self_intersections,
+                  "Report triangles that cross each other, repair none");
+    verb.add_flag("!--keep-sampling", o.condition.refine_undersampled, "Add no sites where triangles are large");
+    verb.add_option("--speck-share", o.condition.speck_share, "Remove components below this share of the area")
+        ->check(CLI::Range(0.0, 0.5))
+        ->capture_default_str();
+    verb.add_option("--components", o.condition.components, "Several components: fail, largest or each")
+        ->transform(CLI::CheckedTransformer(policies))
+        ->default_str("each");
+    verb.add_option("--decimate", o.condition.decimate, "Coarsen by at most this share of the diagonal; 0 = off")
+        ->check(CLI::Range(0.0, 0.1))
+        ->capture_default_str();
 }
 
 }  // namespace

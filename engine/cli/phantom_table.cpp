@@ -83,6 +83,7 @@ private:
 /// All stages, as for any model.
 ModelRecord record_of(const Phantom& phantom, bool characterize) {
     ModelTask task;
+    task.options.condition.refine_undersampled = false;  // the mesh as it is
     task.options.characterize = characterize;
     task.identity.id = "phantom";
     task.options.endpoints.inlets = {phantom.truth.position(0)};
@@ -233,8 +234,9 @@ void add_phantom_table(CLI::App& phantom, std::function<int()>& action) {
         "Errors in percent, mean(standard deviation) along the line, weighted by arc length, then the mean over\n"
         "seeds: position by the section's greatest radius, radius by its least. Rows are aspect ratio or shape, "
         "points\n"
-        "around, and noise along the normal in percent of an edge. All meshes have 20 % tangential jitter and open\n"
-        "ends. position, radius: all of the line but 0.25 a at the openings; _inner: without 1.2 a at either end;\n"
+        "around, and noise along the normal in percent of an edge. All meshes have 20 % tangential jitter, open\n"
+        "ends, and no sites added. position, radius: all of the line but 0.25 a at the openings; _inner: without 1.2 a "
+        "at either end;\n"
         "growth: length of the line by that of the axis, less one, mean(standard deviation) over seeds; seconds: of\n"
         "the processor, all stages up to the line; paper_: Antiga, Ene-Iordache, Remuzzi 2003, on the machine of\n"
         "the time. Characterization: errors of D_g in percent of a, and of NTD, on the 3/5 cylinder against its\n"

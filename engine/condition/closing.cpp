@@ -94,10 +94,9 @@ void append_patch(ClosedSurface& closed, const Loop& loop, const Patch& patch, O
 }  // namespace
 
 ClosedSurface close_wall(const WallMesh& wall, const std::vector<std::uint32_t>& component,
-                         const std::vector<FilledHole>& holes, const std::vector<OpeningPlan>& plans,
-                         double extension_radii, const std::vector<char>& blocked, StageContext& context) {
+                         const std::vector<OpeningPlan>& plans, double extension_radii,
+                         const std::vector<char>& blocked, StageContext& context) {
     ClosedSurface closed = copy_wall(wall, component);
-    for (const FilledHole& hole : holes) append_patch(closed, hole.loop, hole.patch, OpeningId());
     Obstacles obstacles(wall, plans);
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const OpeningPlan& plan = plans[i];

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "engine/condition/holes.h"
 #include "engine/condition/opening_plan.h"
-#include "engine/core/options.h"
+#include "engine/core/condition_options.h"
 #include "engine/core/stage_context.h"
 #include "engine/core/surface.h"
 
@@ -22,7 +21,7 @@ struct ClosedSurface {
 /// @param blocked  openings that must not be extended
 /// @throws StageError kOpenBoundary for a loop that nothing closes; kTooLarge
 ClosedSurface close_wall(const WallMesh& wall, const std::vector<std::uint32_t>& component,
-                         const std::vector<FilledHole>& holes, const std::vector<OpeningPlan>& plans,
-                         double extension_radii, const std::vector<char>& blocked, StageContext& context);
+                         const std::vector<OpeningPlan>& plans, double extension_radii,
+                         const std::vector<char>& blocked, StageContext& context);
 
 }  // namespace lumenline

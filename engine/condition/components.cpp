@@ -65,6 +65,45 @@ std::vector<ComponentFacts> wall_facts(const WallMesh& wall, const WallTopology&
     return facts;
 }
 
+double total_area(const std::vector<ComponentFacts>& facts) {
+    double area = 0;
+    for (const ComponentFacts& c : facts) area += c.area;
+    return area;
+}
+
+struct Removed {
+    std::size_t components = 0, triangles = 0;
+    Vec3 position;  ///< a point of the first
+};
+
+Removed keep_components(WallMesh& wall, WallTopology& topology, const std::vector<ComponentFacts>& facts,
+                        const std::vector<char>& keep) {
+    std::vector<std::uint32_t> renumbered(facts.size(), kDropped);
+    std::uint32_t kept = 0;
+    Removed removed;
+    for (std::size_t i = 0; i < facts.size(); ++i) {
+        if (keep[i]) {
+            renumbered[i] = kept++;
+            continue;
+        }
+        if (removed.components++ == 0) removed.position = facts[i].anchor;
+        removed.triangles += facts[i].triangles;
+    }
+    if (removed.components == 0) return removed;
+    const auto is_gone = [&](std::uint32_t v) { return renumbered[topology.component[v]] == kDropped; };
+    std::erase_if(wall.triangles, [&](const Corners& t) { return is_gone(t[0]); });
+    std::erase_if(topology.loops, [&](const Loop& loop) { return is_gone(loop[0]); });
+    std::vector<std::uint32_t> component;
+    for (const std::uint32_t c : topology.component)
+        if (renumbered[c] != kDropped) component.push_back(renumbered[c]);
+    const std::vector<std::uint32_t> site = drop_unused_vertices(wall);
+    for (Loop& loop : topology.loops)
+        for (std::uint32_t& v : loop) v = site[v];
+    topology.component = std::move(component);
+    topology.component_count = kept;
+    return removed;
+}
+
 std::string percent(double share) { return short_text(100 * share) + " %"; }
 
 std::vector<Corners> triangles_of(const Surface& surface, const std::vector<std::uint32_t>& component,
@@ -114,43 +153,63 @@ void refuse_nested(const Surface& surface, const std::vector<std::uint32_t>& com
 
 void remove_fragments(WallMesh& wall, WallTopology& topology, StageContext& context) {
     const std::vector<ComponentFacts> facts = wall_facts(wall, topology);
-    double area = 0, scraps = 0;
-    for (const ComponentFacts& c : facts) area += c.area;
+    const double area = total_area(facts);
+    double scraps = 0;
     const auto is_scrap = [&](const ComponentFacts& c) {
         return c.boundary_share() > kMostBoundary && c.area < kMostScraps * area;
     };
     for (const ComponentFacts& c : facts) scraps += is_scrap(c) ? c.area : 0;
     if (scraps > kMostScraps * area) return;
-    std::vector<std::uint32_t> renumbered(facts.size(), kDropped);
-    std::uint32_t kept = 0;
-    std::size_t triangles = 0;
-    Vec3 position;
-    for (std::size_t i = 0; i < facts.size(); ++i) {
-        if (!is_scrap(facts[i])) {
-            renumbered[i] = kept++;
-            continue;
-        }
-        if (triangles == 0) position = facts[i].anchor;
-        triangles += facts[i].triangles;
-    }
-    if (triangles == 0) return;
-    context.warn("fragment_removed",
-                 counted(facts.size() - kept, "scrap") + " of " + counted(triangles, "triangle") +
-                     " in all, loose or split off at non-manifold edges, the first at " + short_text(position) +
-                     ", removed",
-                 static_cast<double>(triangles), 0);
+    std::vector<char> keep;
+    for (const ComponentFacts& c : facts) keep.push_back(!is_scrap(c));
+    const Removed removed = keep_components(wall, topology, facts, keep);
+    if (removed.components > 0)
+        context.warn("fragment_removed",
+                     counted(removed.components, "scrap") + " of " + counted(removed.triangles, "triangle") +
+                         " in all, loose or split off at non-manifold edges, the first at " +
+                         short_text(removed.position) + ", removed",
+                     static_cast<double>(removed.triangles), 0);
+}
 
-    const auto is_gone = [&](std::uint32_t v) { return renumbered[topology.component[v]] == kDropped; };
-    std::erase_if(wall.triangles, [&](const Corners& t) { return is_gone(t[0]); });
-    std::erase_if(topology.loops, [&](const Loop& loop) { return is_gone(loop[0]); });
-    std::vector<std::uint32_t> component;
-    for (const std::uint32_t c : topology.component)
-        if (renumbered[c] != kDropped) component.push_back(renumbered[c]);
-    const std::vector<std::uint32_t> site = drop_unused_vertices(wall);
-    for (Loop& loop : topology.loops)
-        for (std::uint32_t& v : loop) v = site[v];
-    topology.component = std::move(component);
-    topology.component_count = kept;
+void remove_specks(WallMesh& wall, WallTopology& topology, double share, StageContext& context) {
+    if (topology.component_count < 2) return;
+    const std::vector<ComponentFacts> facts = wall_facts(wall, topology);
+    const double area = total_area(facts), limit = share * area;
+    std::vector<char> keep;
+    double specks = 0;
+    for (const ComponentFacts& c : facts) {
+        keep.push_back(c.area >= limit);
+        specks += c.area < limit ? c.area : 0;
+    }
+    if (specks > kMostScraps * area) return;
+    const Removed removed = keep_components(wall, topology, facts, keep);
+    if (removed.components > 0)
+        context.warn("speck_removed",
+                     counted(removed.components, "component") + " of " + counted(removed.triangles, "triangle") +
+                         " in all, each of less than " + percent(share) + " of the area, the first at " +
+                         short_text(removed.position) + ", removed as specks",
+                     static_cast<double>(removed.components), share);
+}
+
+void select_components(WallMesh& wall, WallTopology& topology, ComponentPolicy policy, StageContext& context) {
+    if (topology.component_count < 2 || policy == ComponentPolicy::kEach) return;
+    const std::vector<ComponentFacts> facts = wall_facts(wall, topology);
+    const auto largest =
+        std::max_element(facts.begin(), facts.end(), [](const auto& a, const auto& b) { return a.area < b.area; });
+    const double share = 1 - largest->area / total_area(facts);
+    if (policy == ComponentPolicy::kFail)
+        refuse(ErrorCode::kSeveralComponents,
+               "the surface has " + std::to_string(facts.size()) + " components, " + percent(share) +
+                   " of the area outside of the largest, and condition.components is fail; give the lumen alone, or "
+                   "choose largest or each");
+    std::vector<char> keep(facts.size(), 0);
+    keep[static_cast<std::size_t>(largest - facts.begin())] = 1;
+    const Removed removed = keep_components(wall, topology, facts, keep);
+    context.warn("component_dropped",
+                 counted(removed.components, "component") + " of " + counted(removed.triangles, "triangle") + ", " +
+                     percent(share) + " of the area, the first at " + short_text(removed.position) +
+                     ", left out: only the largest was asked for",
+                 static_cast<double>(removed.components), 0);
 }
 
 void refuse_loose_triangles(const WallMesh& wall, const WallTopology& topology) {
@@ -169,10 +228,14 @@ void refuse_loose_triangles(const WallMesh& wall, const WallTopology& topology) 
     }
 }
 
-void turn_outward(WallMesh& wall, WallTopology& topology, StageContext& context) {
+void turn_outward(WallMesh& wall, WallTopology& topology, bool allowed, StageContext& context) {
     const std::vector<ComponentFacts> facts = wall_facts(wall, topology);
     const auto turned = std::count_if(facts.begin(), facts.end(), [](const auto& c) { return c.volume < 0; });
     if (turned == 0) return;
+    if (!allowed)
+        refuse(ErrorCode::kRepairOff, counted(static_cast<std::size_t>(turned), "component") +
+                                          " facing inward, and condition.orient_faces is off; turn the surface or "
+                                          "switch it on");
     for (Corners& t : wall.triangles)
         if (facts[topology.component[t[0]]].volume < 0) std::swap(t[1], t[2]);
     for (Loop& loop : topology.loops)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/core/options.h"
+#include "engine/core/condition_options.h"
 #include "engine/core/soup.h"
 #include "engine/core/stage_context.h"
 #include "engine/core/surface.h"

@@ -1,23 +1,16 @@
 #pragma once
 
-#include <vector>
-
 #include "engine/condition/wall_topology.h"
 #include "engine/core/stage_context.h"
 
 namespace lumenline {
 
-/// A hole closed without an extension: part of the wall.
-struct FilledHole {
-    Loop loop;
-    Patch patch;
-};
-
-/// Takes the tiny holes out of `loops` and closes them, each with a warning (hole_filled): loops of fewer
-/// than six edges and an extent below three median edges that are no end of a vessel, being triangles,
-/// slits, or in the plane of the wall around them. Vertices that had to be added are the patch's.
-/// Warns (opening_in_wall) of larger loops in the plane of the wall. Needs outward orientation.
-std::vector<FilledHole> fill_tiny_holes(const WallMesh& wall, double median_edge, std::vector<Loop>& loops,
-                                        StageContext& context);
+/// Closes the holes among the loops and takes them out of the list, each with a warning (hole_filled). Holes are
+/// loops of fewer than six edges and an extent below three median edges that are no end of a vessel, being
+/// triangles, slits, or in the plane of the wall around them; and larger loops in the plane of the wall of less than
+/// 0.4 of the radius of the vessel there, unless they are even circles of many edges. All others stay as openings;
+/// warns (opening_in_wall) of those in the plane of the wall, and then notes the counts (boundary_loops). Points that
+/// had to be added belong to the wall and have no `input_vertex`. Needs outward orientation.
+void fill_holes(WallMesh& wall, WallTopology& topology, double median_edge, StageContext& context);
 
 }  // namespace lumenline

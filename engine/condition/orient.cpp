@@ -50,7 +50,7 @@ void refuse_one_sided(const WallMesh& wall, const HalfEdgePairs& before, const O
 
 }  // namespace
 
-std::size_t make_oriented_manifold(WallMesh& wall, StageContext& context) {
+std::size_t make_oriented_manifold(WallMesh& wall, const ConditionOptions& options, StageContext& context) {
     const std::size_t vertices = wall.points.size();
     const HalfEdgePairs pairs = pair_half_edges(wall.triangles, vertices);
     if (pairs.first_irregular == kNoHalfEdge && find_split_vertex(wall.triangles, pairs, vertices) == kDropped)
@@ -67,6 +67,16 @@ std::size_t make_oriented_manifold(WallMesh& wall, StageContext& context) {
                                      repaired.source.end());
     std::sort(split.begin(), split.end());
     split.erase(std::unique(split.begin(), split.end()), split.end());
+    if (!options.split_non_manifold && !split.empty())
+        refuse(ErrorCode::kRepairOff,
+               counted(pairs.non_manifold_edges, "edge") + " of more than two triangles and sheets that meet in " +
+                   std::to_string(split.size()) + (split.size() == 1 ? " vertex" : " vertices") + ", the first at " +
+                   short_text(wall.points[split.front()]) +
+                   ", and condition.split_non_manifold is off; repair the surface or switch it on");
+    if (!options.orient_faces && flipped > 0)
+        refuse(ErrorCode::kRepairOff, counted(flipped, "triangle") +
+                                          " facing another way than the neighbours, and condition.orient_faces is off; "
+                                          "repair the surface or switch it on");
     if (!split.empty())
         context.warn("non_manifold_split",
                      "sheets split where they met, at " + counted(pairs.non_manifold_edges, "edge") +

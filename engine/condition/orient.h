@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/condition/wall_mesh.h"
+#include "engine/core/condition_options.h"
 #include "engine/core/stage_context.h"
 
 namespace lumenline {
@@ -9,7 +10,7 @@ namespace lumenline {
 /// vertices (appended, with the `input_vertex` of their original). Leaves a mesh that is so already
 /// untouched; otherwise warns (non_manifold_split, triangles_reoriented) with counts.
 /// @returns the number of vertices copied
-/// @throws StageError kNonManifold for a one-sided surface
-std::size_t make_oriented_manifold(WallMesh& wall, StageContext& context);
+/// @throws StageError kNonManifold for a one-sided surface; kRepairOff for what `options` do not let it do
+std::size_t make_oriented_manifold(WallMesh& wall, const ConditionOptions& options, StageContext& context);
 
 }  // namespace lumenline

@@ -18,6 +18,8 @@ namespace {
 // Coordinates 1, 1/g and 1/p (golden ratio, plastic number): no small integer relation.
 const Vec3 kSkewDirection = normalized({1, 0.61803398874989485, 0.75487766624669276});
 
+constexpr double kLargestCoordinate = 1e20;  // squares and cubes of anything below are finite and far from the limit
+
 constexpr std::size_t kMostElements = std::size_t{1} << 31;
 
 void check_soup(const TriangleSoup& soup) {
@@ -39,6 +41,10 @@ void check_soup(const TriangleSoup& soup) {
                 refuse(ErrorCode::kBadCoordinate, "vertex " + std::to_string(v) + " of triangle " + std::to_string(t) +
                                                       " has the position " + short_text(p) +
                                                       ", which is not finite; repair the file");
+            if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > kLargestCoordinate)
+                refuse(ErrorCode::kBadCoordinate, "vertex " + std::to_string(v) + " of triangle " + std::to_string(t) +
+                                                      " has the position " + short_text(p) + ", beyond the limit of " +
+                                                      short_text(kLargestCoordinate) + "; repair the file");
         }
     }
 }
@@ -132,7 +138,7 @@ void note_count(StageContext& context, const char* code, std::size_t count, cons
 
 }  // namespace
 
-WallMesh weld_soup(const TriangleSoup& soup, double tolerance, StageContext& context) {
+WallMesh weld_soup(const TriangleSoup& soup, double tolerance, bool drop_faces, StageContext& context) {
     check_soup(soup);
     const std::size_t vertices = soup.points.size();
     std::vector<char> used(vertices, 0);
@@ -143,8 +149,6 @@ WallMesh weld_soup(const TriangleSoup& soup, double tolerance, StageContext& con
     for (std::size_t v = 0; v < vertices; ++v)
         if (used[v]) used_points.push_back(soup.points[v]);
     const double diagonal = bounding_diagonal(used_points);
-    if (!std::isfinite(diagonal))
-        refuse(ErrorCode::kBadCoordinate, "the coordinates are so large that the size of the model is not finite");
 
     const std::vector<std::uint32_t> kept = lowest_equal(soup.points, used, tolerance * diagonal, diagonal);
     WallMesh wall;
@@ -160,6 +164,10 @@ WallMesh weld_soup(const TriangleSoup& soup, double tolerance, StageContext& con
                                           " triangles has two corners closer than the weld tolerance of " +
                                           short_text(tolerance * diagonal) + ", so none is left; check the file");
     const std::size_t duplicate = drop_duplicates(wall.triangles, vertices);
+    if (!drop_faces && degenerate + duplicate > 0)
+        refuse(ErrorCode::kRepairOff, "the surface has " + counted(degenerate, "degenerate triangle") + " and " +
+                                          counted(duplicate, "repeated triangle") +
+                                          ", and condition.drop_faces is off; repair the surface or switch it on");
 
     std::size_t welded = 0;
     for (std::size_t v = 0; v < vertices; ++v) welded += used[v] && kept[v] != v;

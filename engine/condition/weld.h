@@ -10,8 +10,10 @@ namespace lumenline {
 /// the one of lowest index stays, with its coordinates. Then drops triangles with a repeated vertex,
 /// repetitions of a triangle (in any orientation; the first stays) and unused vertices, each with a
 /// note that counts them.
-/// @throws StageError kNoSurface when nothing is left, kBadCoordinate, kTooLarge
+/// @param drop_faces  false: refuse such triangles
+/// @throws StageError kNoSurface when nothing is left, kBadCoordinate for coordinates that are not finite or
+///         beyond 1e20, kTooLarge, kRepairOff
 /// @cost O(n log n) time unless more than a few vertices lie within the tolerance of one plane
-WallMesh weld_soup(const TriangleSoup& soup, double tolerance, StageContext& context);
+WallMesh weld_soup(const TriangleSoup& soup, double tolerance, bool drop_faces, StageContext& context);
 
 }  // namespace lumenline

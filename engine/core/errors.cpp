@@ -24,6 +24,8 @@ std::string_view error_name(ErrorCode code) {
         case ErrorCode::kNotClosed: return "not_closed";
         case ErrorCode::kNoVolume: return "no_volume";
         case ErrorCode::kNestedComponents: return "nested_components";
+        case ErrorCode::kSeveralComponents: return "several_components";
+        case ErrorCode::kRepairOff: return "repair_off";
         case ErrorCode::kTooLarge: return "too_large";
         case ErrorCode::kNoLumen: return "no_lumen";
         case ErrorCode::kEndpointsMissing: return "endpoints_missing";

@@ -26,6 +26,8 @@ enum class ErrorCode {
     kNotClosed,          ///< not closed after capping
     kNoVolume,           ///< encloses no volume
     kNestedComponents,   ///< a component inside another one
+    kSeveralComponents,  ///< more than one component, where one only is allowed
+    kRepairOff,          ///< a defect whose repair is switched off
     kTooLarge,           ///< more sites or triangles than 32-bit indices hold
     kNoLumen,            ///< no Voronoi vertex inside
     kEndpointsMissing,   ///< neither openings nor given points

@@ -28,6 +28,23 @@ void summarize_lines(const Centerlines& lines, ModelSummary& summary) {
     summary.radius_mean = summary.length > 0 ? weighted / summary.length : *low;
 }
 
+// Median of the radius along all lines, each point weighted by its share of the arc length.
+double median_radius(const Centerlines& lines) {
+    std::vector<std::pair<double, double>> shares;  // radius, length
+    double total = 0;
+    for (std::size_t line = 0; line < lines.line_count(); ++line)
+        for (std::size_t k = lines.offsets[line]; k + 1 < lines.offsets[line + 1]; ++k) {
+            const double step = lines.abscissa[k + 1] - lines.abscissa[k];
+            shares.emplace_back(0.5 * (lines.radius[k] + lines.radius[k + 1]), step);
+            total += step;
+        }
+    std::sort(shares.begin(), shares.end());
+    double passed = 0;
+    for (const auto& [radius, step] : shares)
+        if ((passed += step) >= 0.5 * total) return radius;
+    return 0;
+}
+
 }  // namespace
 
 ModelSummary summarize(const ModelRecord& record) {
@@ -42,6 +59,7 @@ ModelSummary summarize(const ModelRecord& record) {
     if (record.surface) {
         summary.sites = record.surface->site_count();
         summary.triangles = record.surface->triangles.size();
+        summary.diagonal = record.surface->diagonal;
     }
     if (record.complex) {
         summary.voronoi_vertices = record.complex->vertex_count();
@@ -50,7 +68,11 @@ ModelSummary summarize(const ModelRecord& record) {
     if (record.endpoints)
         for (const Endpoint& e : *record.endpoints)
             ++(e.role == EndpointRole::kInlet ? summary.inlets : summary.outlets);
-    if (record.centerlines) summarize_lines(*record.centerlines, summary);
+    if (record.centerlines) {
+        summarize_lines(*record.centerlines, summary);
+        const double radius = median_radius(*record.centerlines);
+        if (record.surface && radius > 0) summary.edge_over_radius = record.surface->median_edge / radius;
+    }
     if (record.character) {
         summary.geodesic_distance = record.character->geodesic_distance_statistics;
         summary.euclidean_distance = record.character->euclidean_distance_statistics;

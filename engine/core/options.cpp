@@ -6,6 +6,11 @@
 
 namespace lumenline {
 
+std::string_view components_name(ComponentPolicy policy) {
+    static constexpr std::array<std::string_view, 3> kNames{"fail", "largest", "each"};
+    return kNames.at(static_cast<std::size_t>(policy));
+}
+
 std::string_view mode_name(EndpointMode mode) {
     static constexpr std::array<std::string_view, 5> kNames{"auto", "boundaries", "caps", "tips", "points"};
     return kNames.at(static_cast<std::size_t>(mode));
@@ -48,7 +53,7 @@ namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
-    "condition.version=1\nvoronoi.version=2\nendpoints.version=2\neikonal.version=1\ntrace.version=2\n"
+    "condition.version=2\nvoronoi.version=2\nendpoints.version=2\neikonal.version=1\ntrace.version=2\n"
     "characterize.version=1\n";
 
 std::string points_text(const std::vector<Vec3>& points) {
@@ -68,7 +73,17 @@ std::string canonical_text(const ModelTask& task) {
     line("scale", exact_text(task.scale));
     line("condition.weld_tolerance", exact_text(o.condition.weld_tolerance));
     line("condition.extension_radii", exact_text(o.condition.extension_radii));
-    line("condition.check_self_intersections", o.condition.check_self_intersections ? "true" : "false");
+    const auto flag = [&line](std::string_view key, bool value) { line(key, value ? "true" : "false"); };
+    flag("condition.check_self_intersections", o.condition.check_self_intersections);
+    flag("condition.drop_faces", o.condition.drop_faces);
+    flag("condition.orient_faces", o.condition.orient_faces);
+    flag("condition.split_non_manifold", o.condition.split_non_manifold);
+    flag("condition.fill_holes", o.condition.fill_holes);
+    flag("condition.repair_self_intersections", o.condition.repair_self_intersections);
+    line("condition.speck_share", exact_text(o.condition.speck_share));
+    line("condition.components", components_name(o.condition.components));
+    flag("condition.refine_undersampled", o.condition.refine_undersampled);
+    line("condition.decimate", exact_text(o.condition.decimate));
     line("voronoi.merge_tolerance", exact_text(o.voronoi.merge_tolerance));
     line("endpoints.mode", modes_text(o.endpoints.mode));
     line("endpoints.inlets", points_text(o.endpoints.inlets));

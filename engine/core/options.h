@@ -6,25 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/condition_options.h"
 #include "engine/core/model_record.h"
 #include "engine/core/vec3.h"
 
 namespace lumenline {
-
-/// What becomes of triangles that close the flat end of a vessel.
-enum class FlatCaps : std::uint8_t {
-    kKeep,          ///< they are wall
-    kOpenIfClosed,  ///< taken off where the surface has no opening
-    kOpen,          ///< taken off
-};
-
-/// Options of engine/condition.
-struct ConditionOptions {
-    double weld_tolerance = 1e-7;  ///< vertices closer than this share of the bounding box's diagonal become one
-    double extension_radii = 1.2;  ///< openings are extended by this many of their radii; 0 = plain caps
-    bool check_self_intersections = true;
-    FlatCaps flat_caps = FlatCaps::kKeep;  ///< of a pipeline: what its endpoint modes ask for
-};
 
 /// Options of engine/voronoi.
 struct VoronoiOptions {
@@ -123,8 +109,9 @@ struct ModelTask {
     PipelineOptions options;
 };
 
-std::string_view mode_name(EndpointMode mode);  ///< "auto" | "boundaries" | "caps" | "tips" | "points"
-std::string modes_text(EndpointModes modes);    ///< the names with commas between them
+std::string_view components_name(ComponentPolicy policy);  ///< "fail" | "largest" | "each"
+std::string_view mode_name(EndpointMode mode);             ///< "auto" | "boundaries" | "caps" | "tips" | "points"
+std::string modes_text(EndpointModes modes);               ///< the names with commas between them
 /// As a configuration states the rule: "largest", "highest z", "nearest [1, 2, 3]", "boundary 2", ...
 std::string rule_text(const InletRule& rule);
 std::string_view refinement_name(Refinement refinement);  ///< "none" | "path" | "medial"

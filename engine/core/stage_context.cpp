@@ -30,4 +30,9 @@ void StageContext::error(std::string code, std::string message, double value, do
     diagnostics_.push_back({std::move(code), Severity::kError, stage_, std::move(message), value, limit});
 }
 
+void StageContext::retract(std::size_t first, std::size_t last) {
+    const auto begin = diagnostics_.begin();
+    diagnostics_.erase(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last));
+}
+
 }  // namespace lumenline

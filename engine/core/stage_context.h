@@ -37,6 +37,9 @@ public:
     void error(std::string code, std::string message, double value = std::numeric_limits<double>::quiet_NaN(),
                double limit = std::numeric_limits<double>::quiet_NaN());
 
+    /// Takes back the findings `first` .. `last` - 1, of an attempt that is thrown away.
+    void retract(std::size_t first, std::size_t last);
+
     [[nodiscard]] Stage stage() const { return stage_; }
     [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
 

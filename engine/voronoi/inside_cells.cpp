@@ -26,6 +26,8 @@ constexpr std::size_t kGrain = 8192;
 constexpr double kLargeBall2 = 0.6 * 0.6;
 /// The same for Voronoi edges, against the longest edge of all sites of the cells around.
 constexpr double kSafeEdge2 = 0.6 * 0.6;
+/// Squared ratio of the longest edges of neighbours and of a site itself from which on the mesh is graded there.
+constexpr double kGraded2 = 2 * 2;
 /// Voronoi edges shorter than a fifth of their ball's radius are no way through a wall; squared.
 constexpr double kShortEdge2 = 0.2 * 0.2;
 /// Cells lower than this many times the rounding of coordinates have no centre of their own.
@@ -46,6 +48,15 @@ std::vector<SiteFrame> site_frames(const Surface& surface) {
             frames[a].longest_edge = std::max(frames[a].longest_edge, length2);
             frames[b].longest_edge = std::max(frames[b].longest_edge, length2);
         }
+    // Beside triangles much larger than its own, a site's ball may be large for its own and still meet those.
+    std::vector<double> around(frames.size(), 0);
+    for (const auto& t : surface.triangles) {
+        const double longest =
+            std::max({frames[at(t[0])].longest_edge, frames[at(t[1])].longest_edge, frames[at(t[2])].longest_edge});
+        for (const SiteId s : t) around[at(s)] = std::max(around[at(s)], longest);
+    }
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        if (around[i] > kGraded2 * frames[i].longest_edge) frames[i].longest_edge = around[i];
     return frames;
 }
 

@@ -14,6 +14,7 @@
 #include <set>
 #include <system_error>
 
+#include "engine/core/size_note.h"
 #include "engine/core/version.h"
 #include "io/archive/index_names.h"
 #include "io/archive/utf8.h"
@@ -66,6 +67,22 @@ void write_links(Writer& writer, Models models) {
     }
 }
 
+/// The unit of all models' lengths.
+std::string common_unit(Models models) {
+    std::string unit = models.empty() ? "unknown" : models.front().identity.length_unit;
+    for (const ModelSummary& model : models)
+        if (model.identity.length_unit != unit) return "mixed";
+    return unit;
+}
+
+void write_sizes(Writer& writer, Models models) {
+    std::vector<double> diagonals;
+    for (const ModelSummary& model : models) diagonals.push_back(model.diagonal > 0 ? model.diagonal : kNaN);
+    writer.column(names::kDiagonal, diagonals);
+    length_column(writer, names::kEdgeOverRadius, models, &ModelSummary::edge_over_radius);
+    writer.strings(names::kSizeNote, size_notes(diagonals, common_unit(models)));
+}
+
 void write_models(Writer& writer, Models models) {
     identity_column(writer, names::kId, models, &ModelIdentity::id);
     text_column(writer, names::kStatus, models, [](const ModelSummary& m) { return status_name(m.status); });
@@ -96,6 +113,7 @@ void write_models(Writer& writer, Models models) {
         writer.column(c.field, column);
     }
     count_column(writer, names::kUnreached, models, &ModelSummary::unreached_sites);
+    write_sizes(writer, models);
     count_column(writer, names::kWarnings, models, &ModelSummary::warnings);
     text_column(writer, names::kFailureStage, models,
                 [](const ModelSummary& m) { return m.failure ? stage_name(m.failure->stage) : ""; });
@@ -128,11 +146,13 @@ std::set<std::string> own_columns() {
     std::set<std::string> own;
     const std::string prefix = std::string(names::kModelTable) + "/";
     for (const names::Field& field :
-         {names::kId,           names::kStatus,     names::kSubject,    names::kSession,       names::kSide,
-          names::kStructure,    names::kGroup,      names::kLengthUnit, names::kCoordinates,   names::kSourceFile,
-          names::kSourceSha,    names::kInputsSha,  names::kSites,      names::kTriangleCount, names::kVertexCount,
-          names::kPolygonCount, names::kInlets,     names::kOutlets,    names::kLineCount,     names::kLineLength,
-          names::kUnreached,    names::kRadiusMin,  names::kRadiusMean, names::kRadiusMax,     names::kWarnings,
+         {names::kId,           names::kStatus,         names::kSubject,     names::kSession,
+          names::kSide,         names::kStructure,      names::kGroup,       names::kLengthUnit,
+          names::kCoordinates,  names::kSourceFile,     names::kSourceSha,   names::kInputsSha,
+          names::kSites,        names::kTriangleCount,  names::kVertexCount, names::kPolygonCount,
+          names::kInlets,       names::kOutlets,        names::kLineCount,   names::kLineLength,
+          names::kUnreached,    names::kRadiusMin,      names::kRadiusMean,  names::kRadiusMax,
+          names::kDiagonal,     names::kEdgeOverRadius, names::kSizeNote,    names::kWarnings,
           names::kFailureStage, names::kFailureCode})
         own.insert(std::string(field.path).substr(prefix.size()));
     for (const names::StatisticsColumn& c : names::kStatisticsColumns)
@@ -183,14 +203,6 @@ void write_seconds(Writer& writer, Models models) {
     std::vector<double> seconds;
     for (const ModelSummary& model : models) seconds.push_back(model.seconds);
     writer.column(names::kSeconds, seconds);
-}
-
-/// The unit of all models' lengths.
-std::string common_unit(Models models) {
-    std::string unit = models.empty() ? "unknown" : models.front().identity.length_unit;
-    for (const ModelSummary& model : models)
-        if (model.identity.length_unit != unit) return "mixed";
-    return unit;
 }
 
 }  // namespace

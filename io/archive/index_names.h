@@ -69,6 +69,12 @@ inline constexpr StatisticsColumn kStatisticsColumns[] = {
      &ModelSummary::normalized_tangency_deviation, &AreaStatistics::p95},
 };
 inline constexpr Field kUnreached{"/tables/models/unreached_sites", "1", "sites of the wall with no way to a centerline"};
+inline constexpr Field kDiagonal{"/tables/models/diagonal", "length",
+    "of the bounding box of the wall; NaN = no surface was made"};
+inline constexpr Field kEdgeOverRadius{"/tables/models/edge_over_radius", "1",
+    "median edge of the wall over the median radius along the centerlines; NaN = no centerline"};
+inline constexpr Field kSizeNote{"/tables/models/size_note", "1",
+    "what an unusual size says of the model's unit; empty = nothing"};
 inline constexpr Field kWarnings{"/tables/models/warnings", "1", "diagnostics of severity warning or error"};
 inline constexpr Field kFailureStage{"/tables/models/failure_stage", "1", "stage that failed; empty = none"};
 inline constexpr Field kFailureCode{"/tables/models/failure_code", "1", "why, as a stable name; empty = not failed"};

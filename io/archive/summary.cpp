@@ -2,6 +2,7 @@
 // of the file (endpoints' roles, lines, diagnostics) and, for the large ones, only their counts. So
 // there is one definition of each number, and it cannot drift from the data.
 
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -132,6 +133,22 @@ double only_number(const ArchiveFile& file, const names::Field& field) {
     return numbers.front();
 }
 
+/// The numbers of the surface that a summary needs; its arrays stay empty.
+std::shared_ptr<const Surface> read_surface_sizes(const ArchiveFile& file) {
+    const auto number = [&](const char* name) {
+        double value = 0;
+        const std::string text = file.attribute(names::kSurface, name).value_or("");
+        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (result.ec != std::errc() || result.ptr != text.data() + text.size())
+            damaged(file, std::string(names::kSurface) + "@" + name + " is no number");
+        return value;
+    };
+    auto surface = std::make_shared<Surface>();
+    surface->diagonal = number("diagonal");
+    surface->median_edge = number("median_edge");
+    return surface;
+}
+
 Failure read_failure(const ArchiveFile& file) {
     return {stage_of(file, text_attribute(file, "failure_stage")), code_of(file, text_attribute(file, "failure_code")),
             text_attribute(file, "failure_sentence")};
@@ -192,12 +209,12 @@ void read_counts(const ArchiveFile& index, std::vector<ModelSummary>& models) {
 
 void read_lengths(const ArchiveFile& index, std::vector<ModelSummary>& models) {
     const std::pair<const names::Field*, double ModelSummary::*> columns[] = {
-        {&names::kLineLength, &ModelSummary::length},
-        {&names::kRadiusMin, &ModelSummary::radius_min},
-        {&names::kRadiusMean, &ModelSummary::radius_mean},
-        {&names::kRadiusMax, &ModelSummary::radius_max},
+        {&names::kLineLength, &ModelSummary::length},      {&names::kRadiusMin, &ModelSummary::radius_min},
+        {&names::kRadiusMean, &ModelSummary::radius_mean}, {&names::kRadiusMax, &ModelSummary::radius_max},
+        {&names::kDiagonal, &ModelSummary::diagonal},      {&names::kEdgeOverRadius, &ModelSummary::edge_over_radius},
         {&names::kSeconds, &ModelSummary::seconds}};
     for (const auto& [field, member] : columns) {
+        if (!index.has(field->path)) continue;  // an index of an earlier version
         const auto values = column<double>(index, field->path, models.size());
         for (std::size_t row = 0; row < models.size(); ++row)
             models[row].*member = std::isnan(values[row]) ? 0 : values[row];
@@ -239,6 +256,7 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     record.status = status_of(file, text_attribute(file, "status"));
     if (record.status == ModelStatus::kFailed) record.failure = read_failure(file);
     record.diagnostics = read_severities(file);
+    if (file.has(names::kSurfacePoints.path)) record.surface = read_surface_sizes(file);
     if (file.has(names::kEndpointRole.path)) record.endpoints = read_roles(file);
     if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
     if (file.has(names::kStatisticsGeodesic.path)) record.character = read_character(file);

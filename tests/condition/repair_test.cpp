@@ -193,17 +193,43 @@ TEST(Hole, WhoseShortDiagonalIsAnEdgeElsewhereGetsAVertex) {
     wall.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 0, 4}, {0, 2, 3}};
     wall.input_vertex = {0, 1, 2, 3, 4};
     StageContext context(Stage::kCondition);
-    std::vector<Loop> loops{{0, 1, 2, 3}};
-    const std::vector<FilledHole> filled = fill_tiny_holes(wall, 2, loops, context);
-    ASSERT_EQ(filled.size(), 1U);
-    EXPECT_TRUE(loops.empty());
-    EXPECT_EQ(filled[0].patch.points.size(), 1U);
-    EXPECT_EQ(filled[0].patch.triangles.size(), 4U);
+    WallTopology topology{{{0, 1, 2, 3}}, std::vector<std::uint32_t>(5, 0), 1};
+    fill_holes(wall, topology, 2, context);
+    EXPECT_TRUE(topology.loops.empty());
+    EXPECT_EQ(wall.points.size(), 6U);
+    EXPECT_EQ(wall.triangles.size(), 8U);
+}
+
+TEST(Hole, OfOneVertexInTheWallIsFilled) {
+    TriangleSoup soup = clean_tube();
+    erase_fan(soup, vertex(5, 15));
+    const Conditioned result = condition(soup);
+    EXPECT_EQ(result.value("hole_filled"), 6);
+    EXPECT_EQ(result.value("boundary_loops"), 3);
+    EXPECT_EQ(result.count("opening_in_wall"), 0U);
+    EXPECT_EQ(result.surface.openings.size(), 2U);
+    EXPECT_TRUE(is_closed_manifold(result.surface));
+    EXPECT_EQ(crossings(result.surface), 0U);
+    for (std::size_t s = 0; s < result.surface.site_count(); ++s)
+        if (result.surface.origin[s] == SiteOrigin::kWall && result.surface.input_vertex[s] == SiteId::kNoneValue) {
+            EXPECT_NEAR(std::hypot(result.surface.points[s].x, result.surface.points[s].y), 2, 0.1);  // sagitta .07
+        }
+}
+
+TEST(Hole, IsKeptAsAnOpeningWhereFillingIsOff) {
+    TriangleSoup soup = clean_tube();
+    erase_fan(soup, vertex(5, 15));
+    ConditionOptions options;
+    options.fill_holes = false;
+    EXPECT_EQ(condition(soup, options).surface.openings.size(), 3U);
 }
 
 TEST(Hole, TooLargeIsAnOpeningAndSuspicious) {
     TriangleSoup soup = clean_tube();
-    erase_fan(soup, vertex(5, 15));
+    std::vector<std::uint32_t> centres;
+    for (std::uint32_t ring = 14; ring < 17; ++ring)
+        for (std::uint32_t i = 4; i < 7; ++i) centres.push_back(vertex(i, ring));
+    for (const std::uint32_t v : centres) erase_fan(soup, v);
     const Conditioned result = condition(soup);
     EXPECT_EQ(result.count("hole_filled"), 0U);
     EXPECT_EQ(result.count("opening_in_wall"), 1U);
@@ -226,7 +252,12 @@ TEST(Hole, SharingAVertexWithAnotherIsClosedOnItsOwn) {
     TriangleSoup soup = clean_tube();
     erase_fan(soup, vertex(5, 15));
     erase_fan(soup, vertex(7, 15));  // (6, 15) is a corner of both holes
-    const Conditioned result = condition(soup);
+    ConditionOptions options;
+    options.fill_holes = false;
+    options.refine_undersampled = false;
+    EXPECT_EQ(condition(soup).count("hole_filled"), 2U);
+    EXPECT_TRUE(is_closed_manifold(condition(soup).surface));
+    const Conditioned result = condition(soup, options);
     EXPECT_EQ(result.surface.openings.size(), 4U);
     EXPECT_TRUE(is_closed_manifold(result.surface));
     EXPECT_EQ(euler_characteristic(result.surface), 2);
@@ -267,7 +298,11 @@ TEST(ThinTriangle, OnlyOnesAroundASiteTakeTheNeighboursNormal) {
     soup.triangles.push_back({t[0], n + 2, n});
     soup.triangles.push_back({n + 1, n + 2, t[1]});
     soup.triangles.push_back({t[0], t[1], n + 2});
-    const Conditioned result = condition(soup);
+    // The folds cross each other, and would be smoothed out with the whole place.
+    ConditionOptions options;
+    options.repair_self_intersections = false;
+    options.refine_undersampled = false;
+    const Conditioned result = condition(soup, options);
     EXPECT_EQ(result.value("zero_area_triangles"), 4);
     EXPECT_TRUE(is_closed_manifold(result.surface));
     for (const Vec3& normal : result.surface.normals) EXPECT_NEAR(norm(normal), 1, 1e-12);

@@ -144,15 +144,29 @@ std::size_t Conditioned::warnings() const {
                                                   [](const Diagnostic& d) { return d.severity != Severity::kNote; }));
 }
 
-Conditioned condition(const TriangleSoup& soup, double extension_radii, double weld_tolerance) {
+Conditioned condition(const TriangleSoup& soup, const ConditionOptions& options) {
     StageContext context(Stage::kCondition);
-    ConditionOptions options;
-    options.extension_radii = extension_radii;
-    options.weld_tolerance = weld_tolerance;
     Conditioned result;
     result.surface = condition_surface(soup, options, context);
     result.diagnostics = context.diagnostics();
     return result;
+}
+
+Conditioned condition(const TriangleSoup& soup, double extension_radii, double weld_tolerance) {
+    ConditionOptions options;
+    options.extension_radii = extension_radii;
+    options.weld_tolerance = weld_tolerance;
+    options.refine_undersampled = false;
+    return condition(soup, options);
+}
+
+std::string refusal(const TriangleSoup& soup, const ConditionOptions& options) {
+    try {
+        condition(soup, options);
+    } catch (const StageError& e) {
+        return e.stage() == Stage::kCondition ? std::string(error_name(e.code())) : "wrong stage";
+    }
+    return "";
 }
 
 std::string refusal(const TriangleSoup& soup, double weld_tolerance, std::string* sentence) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/options.h"
 #include "engine/core/soup.h"
 #include "engine/core/stage_context.h"
 #include "engine/core/surface.h"
@@ -37,7 +38,8 @@ TriangleSoup mapped(TriangleSoup soup, const std::function<Vec3(Vec3)>& map);
 /// The same surface with points and triangles in another order.
 TriangleSoup shuffled(const TriangleSoup& soup, unsigned seed);
 
-/// What condition_surface does with default options or the ones given.
+/// What condition_surface does with the options given; by default without refinement, because most shapes here
+/// are as coarse as can be.
 struct Conditioned {
     Surface surface;
     Diagnostics diagnostics;
@@ -45,9 +47,11 @@ struct Conditioned {
     [[nodiscard]] double value(const std::string& code) const;
     [[nodiscard]] std::size_t warnings() const;
 };
+Conditioned condition(const TriangleSoup& soup, const ConditionOptions& options);
 Conditioned condition(const TriangleSoup& soup, double extension_radii = 1.2, double weld_tolerance = 1e-7);
 
 /// Error name of the refusal, "" if there was none.
+std::string refusal(const TriangleSoup& soup, const ConditionOptions& options);
 std::string refusal(const TriangleSoup& soup, double weld_tolerance = 1e-7, std::string* sentence = nullptr);
 
 /// Every directed edge once, its reverse once, every site's triangles one fan.

@@ -59,7 +59,9 @@ TEST(Cohort, EveryTopLevelKeyHasItsEffect) {
     const CohortConfig config = folder.load(with(R"(length_unit: mm
 coordinate_system: RAS
 endpoints: {mode: points}
-condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: false}
+condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: false, drop_faces: false,
+            orient_faces: false, split_non_manifold: false, fill_holes: false, repair_self_intersections: false,
+            speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
 centerlines: {refine: none, pairs: all}
 characterize: false
 run: {threads: 3, models_in_flight: 7}
@@ -70,7 +72,13 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(task.options.endpoints.mode, EndpointMode::kPoints);
     EXPECT_EQ(task.options.condition.weld_tolerance, 1e-5);
     EXPECT_EQ(task.options.condition.extension_radii, 0);
-    EXPECT_FALSE(task.options.condition.check_self_intersections);
+    const ConditionOptions& condition = task.options.condition;
+    EXPECT_FALSE(condition.check_self_intersections || condition.drop_faces || condition.orient_faces);
+    EXPECT_FALSE(condition.split_non_manifold || condition.fill_holes || condition.repair_self_intersections);
+    EXPECT_FALSE(condition.refine_undersampled);
+    EXPECT_EQ(condition.speck_share, 0);
+    EXPECT_EQ(condition.components, ComponentPolicy::kLargest);
+    EXPECT_EQ(condition.decimate, 1e-3);
     EXPECT_EQ(task.options.trace.refine, Refinement::kNone);
     EXPECT_EQ(task.options.trace.pairs, Pairs::kAll);
     EXPECT_FALSE(task.options.characterize);

@@ -136,6 +136,7 @@ ModelRecord run_pipeline(const TriangleSoup& soup, const PipelineOptions& option
 
 PipelineOptions from_start_to_end(const PhantomTruth& truth) {
     PipelineOptions options;
+    options.condition.refine_undersampled = false;  // the mesh as it is
     options.endpoints.inlets = {truth.position(0)};
     options.endpoints.outlets = {truth.position(truth.total_length())};
     return options;
