@@ -52,7 +52,9 @@ double WallRadius::at(std::uint32_t t, double largest) const {
         const double depth = -dot(d, outward);
         if (!(depth > 0)) return found;
         r = std::min((1 - kSlack / 2) * r, squared_norm(d) / (2 * depth));
-        if (dot(outward, nearest.point - centre) < kOppositeCosine * nearest.distance) found = r;
+        const Vec3 way = nearest.point - centre;
+        const double side = dot(way, unit_normal(lumenline::at(nearest.triangle))) < 0 ? -1 : 1;  // -1 = from outside
+        if (side * dot(outward, way) < kOppositeCosine * nearest.distance) found = r;
     }
     return found;
 }

@@ -17,6 +17,7 @@ namespace lumenline {
 namespace {
 
 constexpr double kClearLargest = 1.2;  // ratio of radii of the largest end to the second
+constexpr double kStartReach = 1.5;    // of an end's nearest site, within which sites are its
 constexpr double kSame = 1e-6;         // share by which equal costs and radii may differ
 
 double skew_position(Vec3 p) { return p.x + 0.61803398874989485 * p.y + 0.75487766624669276 * p.z; }
@@ -90,21 +91,33 @@ std::vector<double> costs_from(const VoronoiComplex& complex, const Endpoints& i
 std::vector<double> wall_distances(const Surface& surface, const Endpoints& inlets, const Endpoints& ends) {
     const std::size_t n = surface.site_count();
     const SiteNeighbours neighbours(surface);
-    const auto sites_of = [&](const Endpoint& e) -> std::vector<SiteId> {
-        if (!e.opening.is_none()) return surface.openings[at(e.opening)].loop;
-        const auto nearest = std::min_element(surface.points.begin(), surface.points.end(), [&](Vec3 p, Vec3 q) {
-            return squared_norm(p - e.anchor) < squared_norm(q - e.anchor);
-        });
-        return {SiteId(static_cast<std::size_t>(nearest - surface.points.begin()))};
+    struct Start {
+        SiteId site;
+        double way = 0;  // to the site
+    };
+    // Of a ball inside, all sites it rests on count: which is nearest is a matter of rounding.
+    const auto starts_of = [&](const Endpoint& e) {
+        std::vector<Start> starts;
+        if (!e.opening.is_none()) {
+            for (const SiteId s : surface.openings[at(e.opening)].loop) starts.push_back({s, 0});
+            return starts;
+        }
+        double least = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : surface.points) least = std::min(least, distance(p, e.anchor));
+        for (std::size_t s = 0; s < n; ++s)
+            if (const double way = distance(surface.points[s], e.anchor); way <= kStartReach * least)
+                starts.push_back({SiteId(s), way});
+        return starts;
     };
     std::vector<double> length(n, std::numeric_limits<double>::infinity());
     IndexedHeap heap;
     heap.reset(n);
     const auto key = [&length](std::uint32_t s) { return length[s]; };
     for (const Endpoint& e : inlets)
-        for (const SiteId s : sites_of(e)) {
-            length[at(s)] = 0;
-            heap.push_or_decrease(s.value, key);
+        for (const Start& start : starts_of(e)) {
+            double& so_far = length[at(start.site)];
+            so_far = std::min(so_far, start.way);
+            heap.push_or_decrease(start.site.value, key);
         }
     while (!heap.empty()) {
         const SiteId s(std::size_t{heap.pop(key)});
@@ -117,7 +130,8 @@ std::vector<double> wall_distances(const Surface& surface, const Endpoints& inle
     }
     std::vector<double> result(ends.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < ends.size(); ++i)
-        for (const SiteId s : sites_of(ends[i])) result[i] = std::min(result[i], length[at(s)]);
+        for (const Start& start : starts_of(ends[i]))
+            result[i] = std::min(result[i], length[at(start.site)] + start.way);
     return result;
 }
 

@@ -20,7 +20,7 @@ std::optional<std::size_t> pick_inlet(const Endpoints& ends, const std::vector<s
                                       const InletRule& rule, StageContext& context);
 
 /// Length of the way along the wall's edges to each endpoint from the nearest inlet; +inf = none. An opening
-/// is reached at its loop, any other end at the site nearest to its anchor.
+/// is reached at its loop, any other end at the sites around its anchor.
 /// @cost O(N log N), a fifth of that of paths over the complex
 std::vector<double> wall_distances(const Surface& surface, const Endpoints& inlets, const Endpoints& ends);
 

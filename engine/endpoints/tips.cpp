@@ -27,6 +27,7 @@ constexpr double kCoverStep = 0.5;      // between balls that cover, in their ra
 constexpr double kLoopReach = 2;        // cost below the tip's vertex down to which its part is one region
 constexpr double kLoopBand = 1;         // cost of the band below the region in which its necks are counted
 constexpr double kLoopRadius = 0.5;     // least radius of a neck that counts, in the tip's
+constexpr double kLeastEdges = 2;       // length of a branch in median edges: shorter ones are cracks of the sampling
 constexpr double kOpeningRadii = 1.75;  // of an opening's centre, within which its own end lies
 
 using Vertex = std::uint32_t;
@@ -259,7 +260,7 @@ private:
     void try_tip(const ShortestPaths& paths, Vertex end, double branch_end) {
         if (covered_[end]) return;
         const Branch branch = measure(paths, end, branch_end);
-        if (!(branch.length > tip_length_ * branch.radius)) return;
+        if (!(branch.length > std::max(tip_length_ * branch.radius, kLeastEdges * surface_.median_edge))) return;
         cover_path(paths, end);
         Vertex root = end;
         while (!paths.parent[root].is_none()) root = paths.parent[root].value;

@@ -24,7 +24,7 @@ struct Tip {
 /// back to where the tip's part of the complex joins one that reaches farther (the merge tree of the
 /// length); of it counts what lies outside of the balls of the paths already accepted, up to the wall
 /// beyond the tip. The tip is accepted if that is longer than `tip_length` mean radii of the same
-/// stretch. Where two fronts meet on the far side of a loop there is a maximum too, which is no tip.
+/// stretch, and than two median edges of the wall. Where two fronts meet on the far side of a loop there is a maximum too, which is no tip.
 /// The ends of openings are none either.
 /// @param tip_length  least length of a branch beyond the wall of its parent [local radii]
 /// @cost O(V log V)
