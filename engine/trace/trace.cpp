@@ -18,7 +18,7 @@ namespace lumenline {
 
 namespace {
 
-constexpr double kMinStep = 1e-2;         // of the ball radius, between points of a path
+constexpr double kMinStep = 1e-3;         // of the ball radius, between points of a path
 constexpr double kUnreachedWall = 0.005;  // of the wall's sites
 constexpr double kUndersampled = 0.05;    // (R - clearance) / R
 
