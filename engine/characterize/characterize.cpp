@@ -59,7 +59,7 @@ public:
             if (const VoronoiVertexId pole = complex_.pole[i]; !pole.is_none())
                 if (const DescentEnd end = descent.from(pole); end.reached()) {
                     place(i, pole, end);
-                    refine(i, balls.at_site(SiteId(i)), descent);
+                    refine(i, result_.zone[i] == SiteZone::kAdded ? BallCentre() : balls.at_site(SiteId(i)), descent);
                 }
         }
         summarize_wall(surface_, result_);

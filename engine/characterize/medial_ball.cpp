@@ -6,7 +6,12 @@
 // did not fall. There the fitted curvature bounds the radius; the other sites are used as they are.
 // The centre is then brought to the nearest point of the site's polygons, which lie within rounding of it where
 // the ray leaves through one, and within the second order of the edge at the rim of a medial sheet.
+// A site in the trough of a noisy wall touches no such ball: all its polygons, if it has any, lie between it and its
+// neighbours. It borrows those of its neighbours that lead across; on real surfaces one site in four has to.
 #include "engine/characterize/medial_ball.h"
+
+#include <algorithm>
+#include <iterator>
 
 #include "engine/geometry/nearest_on_polygon.h"
 
@@ -25,35 +30,49 @@ MedialBalls::MedialBalls(const Surface& surface, const VoronoiComplex& complex)
             if (!s.is_none()) polygons_[next[at(s)]++] = PolygonId(p);
 }
 
+void MedialBalls::gather(SiteId site) {
+    candidates_.assign(polygons_of(site).begin(), polygons_of(site).end());
+    const auto leads_across = [&](PolygonId q) {
+        const auto [s, t] = complex_.polygon_sites[at(q)];
+        return !fit_.is_near(s) || !fit_.is_near(t);
+    };
+    if (std::any_of(candidates_.begin(), candidates_.end(), leads_across)) return;
+    const std::size_t own = candidates_.size();
+    for (const auto ring : {fit_.first_ring(), fit_.second_ring()}) {
+        for (const SiteId neighbour : ring)
+            std::ranges::copy_if(polygons_of(neighbour), std::back_inserter(candidates_), leads_across);
+        if (candidates_.size() > own) return;
+    }
+}
+
 BallCentre MedialBalls::at_site(SiteId site) {
-    const auto polygons = polygons_of(site);
-    BallCentre best;
-    if (polygons.empty()) return best;
     const LocalShape shape = fit_.at_site(site);
+    gather(site);
+    BallCentre best;
+    if (candidates_.empty()) return best;
     const Vec3 p = surface_.points[at(site)];
     double inverse = shape.curvature_max;
-    PolygonId exit = polygons.front();
-    for (const PolygonId q : polygons) {
-        const auto [s, t] = complex_.polygon_sites[at(q)];
-        const SiteId other = s == site ? t : s;
-        if (fit_.is_near(other)) continue;
-        const Vec3 e = surface_.points[at(other)] - p;
-        const double needed = 2 * dot(e, shape.inward) / squared_norm(e);
-        if (!(needed > inverse)) continue;
-        inverse = needed;
-        exit = q;
-    }
+    PolygonId exit = candidates_.front();
+    for (const PolygonId q : candidates_)
+        for (const SiteId other : complex_.polygon_sites[at(q)]) {
+            if (fit_.is_near(other)) continue;
+            const Vec3 e = surface_.points[at(other)] - p;
+            const double needed = 2 * dot(e, shape.inward) / squared_norm(e);
+            if (!(needed > inverse)) continue;
+            inverse = needed;
+            exit = q;
+        }
     if (!(inverse > 0)) return best;
     const Vec3 x = p + (1 / inverse) * shape.inward;
     best = {nearest_on_polygon(surface_, complex_, exit, x).point, exit};
     double least = squared_norm(best.x - x);
-    for (const PolygonId q : polygons) {
+    for (const PolygonId q : candidates_) {
         if (q == exit) continue;
         // No point of a polygon is nearer than the plane it lies in, the bisector of its sites.
         const auto [s, t] = complex_.polygon_sites[at(q)];
-        const Vec3 e = surface_.points[at(s == site ? t : s)] - p;
-        const double length2 = squared_norm(e), height = dot(x - p, e) - 0.5 * length2;
-        if (height * height >= least * length2) continue;
+        const Vec3 a = surface_.points[at(s)], b = surface_.points[at(t)], e = b - a;
+        const double height = dot(x - 0.5 * (a + b), e);
+        if (height * height >= least * squared_norm(e)) continue;
         const Vec3 y = nearest_on_polygon(surface_, complex_, q, x).point;
         if (const double d = squared_norm(y - x); d < least) {
             least = d;

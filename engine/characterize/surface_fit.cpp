@@ -4,8 +4,8 @@
 // comes out 1.6 % too large, and with it every touching ball too small.
 #include "engine/characterize/surface_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lumenline {
@@ -15,31 +15,8 @@ namespace {
 constexpr int kTerms = 5;
 constexpr double kSingular = 1e-10;  // of a diagonal of order one: the neighbours do not determine the quadric
 
-using Matrix = std::array<std::array<double, kTerms>, kTerms>;
-using Vector = std::array<double, kTerms>;
-
-/// Solves m x = r in place of r, m symmetric with its lower half given; false where it is singular.
-bool solve_cholesky(Matrix& m, Vector& r) {
-    for (int j = 0; j < kTerms; ++j) {
-        const double before = m[j][j];
-        for (int k = 0; k < j; ++k) m[j][j] -= m[j][k] * m[j][k];
-        if (!(m[j][j] > kSingular * before)) return false;
-        m[j][j] = std::sqrt(m[j][j]);
-        for (int i = j + 1; i < kTerms; ++i) {
-            for (int k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
-            m[i][j] /= m[j][j];
-        }
-    }
-    for (int i = 0; i < kTerms; ++i) {
-        for (int k = 0; k < i; ++k) r[i] -= m[i][k] * r[k];
-        r[i] /= m[i][i];
-    }
-    for (int i = kTerms; i-- > 0;) {
-        for (int k = i + 1; k < kTerms; ++k) r[i] -= m[k][i] * r[k];
-        r[i] /= m[i][i];
-    }
-    return true;
-}
+using Matrix = Eigen::Matrix<double, kTerms, kTerms>;
+using Vector = Eigen::Matrix<double, kTerms, 1>;
 
 }  // namespace
 
@@ -55,8 +32,8 @@ void SurfaceFit::gather(SiteId site) {
         near_.push_back(s);
     };
     for (const SiteId s : ring_.of(site)) take(s);
-    const std::size_t first_ring = near_.size();
-    for (std::size_t i = 0; i < first_ring; ++i)
+    first_ring_ = near_.size();
+    for (std::size_t i = 0; i < first_ring_; ++i)
         for (const SiteId s : ring_.of(near_[i])) take(s);
 }
 
@@ -69,21 +46,22 @@ LocalShape SurfaceFit::at_site(SiteId site) {
     if (near_.size() < kTerms || !(size2 > 0)) return shape;
     const double scale = 1 / std::sqrt(size2);
     const Vec3 e1 = scale * any_perpendicular(n), e2 = cross(n, e1);
-    Matrix m{};
-    Vector r{};
+    Matrix m = Matrix::Zero();
+    Vector r = Vector::Zero();
     for (const SiteId s : near_) {
         const Vec3 d = surface_.points[at(s)] - p;
         const double u = dot(d, e1), v = dot(d, e2), height = scale * dot(d, n);
         const double flat2 = u * u + v * v;
         const double z = flat2 > 0 ? height * flat2 / (flat2 + height * height) : height;
-        const Vector row{u, v, 0.5 * u * u, u * v, 0.5 * v * v};
-        for (int i = 0; i < kTerms; ++i) {
-            for (int j = 0; j <= i; ++j) m[i][j] += row[i] * row[j];
-            r[i] += row[i] * z;
-        }
+        const Vector row(u, v, 0.5 * u * u, u * v, 0.5 * v * v);
+        m.noalias() += row * row.transpose();
+        r += z * row;
     }
-    if (!solve_cholesky(m, r)) return shape;
-    const auto [a, b, c, d, e] = r;
+    const Eigen::LLT<Matrix> factor(m);
+    const auto pivots = factor.matrixLLT().diagonal().array().square();
+    if (factor.info() != Eigen::Success || !(pivots > kSingular * m.diagonal().array()).all()) return shape;
+    const Vector solution = factor.solve(r);
+    const double a = solution[0], b = solution[1], c = solution[2], d = solution[3], e = solution[4];
     shape.inward = normalized(a * normalized(e1) + b * normalized(e2) - n);
     // Eigenvalues of the second by the first fundamental form; a convex lumen has z fall away.
     const double w = std::sqrt(1 + a * a + b * b), det_first = w * w;

@@ -30,6 +30,10 @@ public:
     /// Sites of the two rings of the last at_site, itself included.
     [[nodiscard]] bool is_near(SiteId site) const { return stamp_[at(site)] == turn_; }
 
+    /// Sites joined to it by an edge, and those joined to these.
+    [[nodiscard]] std::span<const SiteId> first_ring() const { return std::span(near_).first(first_ring_); }
+    [[nodiscard]] std::span<const SiteId> second_ring() const { return std::span(near_).subspan(first_ring_); }
+
 private:
     void gather(SiteId site);
 
@@ -37,7 +41,8 @@ private:
     SiteNeighbours ring_;
     std::vector<std::uint32_t> stamp_;
     std::uint32_t turn_ = 0;
-    std::vector<SiteId> near_;  ///< of the last site, without itself
+    std::vector<SiteId> near_;  ///< of the last site, without itself: its first ring, then the second
+    std::size_t first_ring_ = 0;
 };
 
 }  // namespace lumenline
