@@ -76,6 +76,7 @@ PipelineOptions read_options(const MapReader& top) {
     t.refine = enumerated(centerlines.choice("refine"), t.refine,
                           std::array{Refinement::kNone, Refinement::kPath, Refinement::kMedial}, refinement_name);
     t.pairs = enumerated(centerlines.choice("pairs"), t.pairs, std::array{Pairs::kNearest, Pairs::kAll}, pairs_name);
+    t.join = enumerated(centerlines.choice("join"), t.join, std::array{Join::kAxis, Join::kCentre}, join_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
     return options;
 }

@@ -54,6 +54,7 @@ constexpr std::array kKeys{
     KeyInfo{"centerlines", "map", "", "-", "{}"},
     KeyInfo{"centerlines.refine", "choice", "none|path|medial", "-", "medial"},
     KeyInfo{"centerlines.pairs", "choice", "nearest|all", "-", "nearest"},
+    KeyInfo{"centerlines.join", "choice", "axis|centre", "-", "axis"},
     KeyInfo{"characterize", "boolean", "", "-", "true"},
     KeyInfo{"run", "map", "", "-", "{}"},
     KeyInfo{"run.threads", "integer", "all", "threads", "all", {1, 4096, false}},

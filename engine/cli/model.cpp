@@ -125,6 +125,7 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
                     "Least length of a blind branch beyond the wall of its parent, in its radii")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();
+    const std::map<std::string, Join> joins{{"axis", Join::kAxis}, {"centre", Join::kCentre}};
     verb.add_option("--refine", o.trace.refine,
                     "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth "
                     "surface's axis)")
@@ -133,6 +134,9 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     verb.add_option("--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all")
         ->transform(CLI::CheckedTransformer(pairs))
         ->default_str("nearest");
+    verb.add_option("--join", o.trace.join, "End lines on the axis or at the centre of their openings")
+        ->transform(CLI::CheckedTransformer(joins))
+        ->default_str("axis");
     verb.add_option("--weld-tolerance", o.condition.weld_tolerance,
                     "Share of the diagonal within which vertices are one")
         ->check(CLI::Range(0.0, 0.01))

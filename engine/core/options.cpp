@@ -49,6 +49,8 @@ std::string_view refinement_name(Refinement refinement) {
 
 std::string_view pairs_name(Pairs pairs) { return pairs == Pairs::kNearest ? "nearest" : "all"; }
 
+std::string_view join_name(Join join) { return join == Join::kAxis ? "axis" : "centre"; }
+
 namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
@@ -94,6 +96,7 @@ std::string canonical_text(const ModelTask& task) {
     line("endpoints.tip_length", exact_text(o.endpoints.tip_length));
     line("centerlines.refine", refinement_name(o.trace.refine));
     line("centerlines.pairs", pairs_name(o.trace.pairs));
+    line("centerlines.join", join_name(o.trace.join));
     line("characterize", o.characterize ? "true" : "false");
     return text;
 }

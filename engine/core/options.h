@@ -86,10 +86,17 @@ enum class Pairs : std::uint8_t {
     kAll,      ///< each target from every source that reaches it
 };
 
+/// Where in the plane of its opening a line ends.
+enum class Join : std::uint8_t {
+    kAxis,    ///< where the axis crosses the plane
+    kCentre,  ///< at the area centroid of the opening's loop, the last radius of the line bent there
+};
+
 /// Options of engine/trace.
 struct TraceOptions {
     Refinement refine = Refinement::kMedial;
     Pairs pairs = Pairs::kNearest;
+    Join join = Join::kAxis;
 };
 
 /// Everything that determines the result for one surface.
@@ -116,6 +123,7 @@ std::string modes_text(EndpointModes modes);               ///< the names with c
 std::string rule_text(const InletRule& rule);
 std::string_view refinement_name(Refinement refinement);  ///< "none" | "path" | "medial"
 std::string_view pairs_name(Pairs pairs);                 ///< "nearest" | "all"
+std::string_view join_name(Join join);                    ///< "axis" | "centre"
 
 /// Canonical text of everything in `task` that determines its result, one `key=value` a line:
 /// options, points, scale, and the version of every stage's algorithm. Part of `inputs_sha256`.

@@ -14,26 +14,16 @@ namespace {
 
 constexpr double kCostRounding = 1e-6;  // of the cost: what its sampling at other nodes may change
 constexpr double kStray = 1.0;          // of the path's ball radius
-constexpr double kSharpest = 0.5;  // cosine: pieces are a small part of a radius long, on which no axis turns so far
-
-/// Piecewise linear function; arguments ascend.
-class Graph {
-public:
-    Graph(const std::vector<double>& x, const std::vector<double>& y) : x_(x), y_(y) {}
-
-    [[nodiscard]] double operator()(double at) const {
-        const auto above = std::upper_bound(x_.begin(), x_.end(), at);
-        if (above == x_.begin()) return y_.front();
-        if (above == x_.end()) return y_.back();
-        const auto i = static_cast<std::size_t>(above - x_.begin());
-        return std::lerp(y_[i - 1], y_[i], (at - x_[i - 1]) / (x_[i] - x_[i - 1]));
-    }
-
-private:
-    const std::vector<double>&x_, &y_;
-};
 
 }  // namespace
+
+double Graph::operator()(double at) const {
+    const auto above = std::upper_bound(x_.begin(), x_.end(), at);
+    if (above == x_.begin()) return y_.front();
+    if (above == x_.end()) return y_.back();
+    const auto i = static_cast<std::size_t>(above - x_.begin());
+    return std::lerp(y_[i - 1], y_[i], (at - x_[i - 1]) / (x_[i] - x_[i - 1]));
+}
 
 FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_front, const LineCheck& check) {
     FinalLine final;
@@ -64,7 +54,7 @@ std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from,
         why = "stray from the balls of its path";
         return std::nullopt;
     }
-    if (const Turn turn = sharpest_turn(refined.line); turn.cosine < kSharpest) {
+    if (const Turn turn = sharpest_turn(refined.line); turn.cosine < kSharpestTurn) {
         why = "turn sharply at " + short_text(turn.at);
         return std::nullopt;
     }

@@ -18,6 +18,23 @@ struct FinalLine {
     std::vector<double> path_to_line;  ///< per point of its path: abscissa on `line`, ascending [length]
 };
 
+/// A piecewise linear function.
+class Graph {
+public:
+    /// Keeps references. @param x  ascending
+    Graph(const std::vector<double>& x, const std::vector<double>& y) : x_(x), y_(y) {}
+
+    /// Beyond its ends the function goes on level.
+    [[nodiscard]] double operator()(double at) const;
+
+private:
+    const std::vector<double>&x_, &y_;
+};
+
+/// No piece of a line turns against the one before it by more: pieces are a small part of a radius long, on which no
+/// axis turns so far.
+inline constexpr double kSharpestTurn = 0.5;  // cosine
+
 /// The path itself as the line. True radii lie between clearance and ball radius: their difference is
 /// the radius error; there is no estimate of the position's.
 /// @param whole      the path from anchor to anchor

@@ -300,6 +300,23 @@ double MedialRefiner::move_nodes() {
     return largest;
 }
 
+double MedialRefiner::radius_at(Vec3 x, Vec3 tangent, double about) {
+    const Vec3 u = any_perpendicular(tangent), v = cross(tangent, u);
+    TriangleId triangle(std::size_t{0});
+    Vec3 hint = curved_.surface().points[at(curved_.surface().triangles[0][0])];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kDirections; ++k) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kDirections;
+        const Vec3 p = x + (kLookAhead * about) * (std::cos(angle) * u + std::sin(angle) * v);
+        const SurfaceDistance::Nearest wall = curved_.flat().nearest(p, hint, triangle);
+        hint = wall.point;
+        triangle = wall.triangle;
+        const SurfaceFoot beyond = curved_.foot(p, wall.point, wall.triangle);
+        least = std::min(least, distance(x, curved_.foot(x, beyond.point, beyond.triangle).point));
+    }
+    return least;
+}
+
 double MedialRefiner::cost() const {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)

@@ -37,6 +37,10 @@ public:
     /// @returns a line without points where the path is too short or no step could be made
     [[nodiscard]] RefinedLine refine(const Polyline& path, const LineEnd& start, const LineEnd& end);
 
+    /// Distance to the curved surface, looked for in all directions across a line.
+    /// @param tangent  of the line, unit @param about  the distance, roughly @cost 24 distance queries
+    [[nodiscard]] double radius_at(Vec3 x, Vec3 tangent, double about);
+
 private:
     static constexpr std::size_t kDirections = 12;
 

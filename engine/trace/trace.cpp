@@ -9,6 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/geometry/edge_update.h"
 #include "engine/trace/final_line.h"
+#include "engine/trace/join.h"
 #include "engine/trace/medial.h"
 #include "engine/trace/path.h"
 #include "engine/trace/polyline.h"
@@ -90,7 +91,7 @@ public:
                                " has a ball that disagrees with its distance to the wall: its radii there are doubtful",
                            line.check.ball_excess, 0);
         note_gaps(line);
-        append(field.source, EndpointId(target), line, final_line(line, from, to, target));
+        append(field.source, EndpointId(target), line, joined(final_line(line, from, to, target), from, to, target));
     }
 
     void report_unreached(std::size_t target) {
@@ -166,6 +167,17 @@ private:
                                                   " is kept on the Voronoi polygons: refined, it would " + why);
         }
         return unrefined_line(line.whole, line.cut, line.cut_front, line.check);
+    }
+
+    FinalLine joined(FinalLine line, const Endpoint& from, const Endpoint& to, std::size_t target) {
+        if (options_.join == Join::kAxis) return line;
+        const bool refined = !std::isnan(line.position_error.front());
+        if (auto bent = join_centres(line, from, to, refined ? &*refiner_ : nullptr, verifier_))
+            return *std::move(bent);
+        context_.note("line_not_joined", "the line to " + describe(endpoints_, target) +
+                                             " ends on its axis: bent to the centres of its openings, it would leave "
+                                             "the lumen or turn sharply");
+        return line;
     }
 
     void append(EndpointId source, EndpointId target, const Candidate& line, const FinalLine& final) {

@@ -62,7 +62,7 @@ endpoints: {mode: points}
 condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: false, drop_faces: false,
             orient_faces: false, split_non_manifold: false, fill_holes: false, repair_self_intersections: false,
             speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
-centerlines: {refine: none, pairs: all}
+centerlines: {refine: none, pairs: all, join: centre}
 characterize: false
 run: {threads: 3, models_in_flight: 7}
 archive: {directory: ../out, precision: float64})"));
@@ -81,6 +81,7 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(condition.decimate, 1e-3);
     EXPECT_EQ(task.options.trace.refine, Refinement::kNone);
     EXPECT_EQ(task.options.trace.pairs, Pairs::kAll);
+    EXPECT_EQ(task.options.trace.join, Join::kCentre);
     EXPECT_FALSE(task.options.characterize);
     EXPECT_EQ(config.run.threads, 3);
     EXPECT_EQ(config.run.models_in_flight, 7);

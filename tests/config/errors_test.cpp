@@ -166,6 +166,7 @@ TEST(ConfigErrors, ChoicesGetTheNearestWord) {
     expect_errors({
         {with("coordinate_system: lps"), 2, "must be LPS, RAS or unknown, not 'lps'; did you mean 'LPS'?"},
         {with("centerlines: {refine: axial}"), 2, "must be none, path or medial, not 'axial'"},
+        {with("centerlines: {join: middle}"), 2, "must be axis or centre, not 'middle'"},
         {with("centerlines: {pairs: nearst}"), 2, "did you mean 'nearest'?"},
         {with("archive: {precision: float46}"), 2, "did you mean 'float64'?"},
     });
