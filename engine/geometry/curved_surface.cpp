@@ -195,19 +195,10 @@ double CurvedSurface::uncertainty(const SurfaceFoot& foot) {
     return std::sqrt(sum2);
 }
 
-double CurvedSurface::disturbance(const SurfaceFoot& foot, std::uint32_t draw) {
+std::array<double, 3> CurvedSurface::corner_offsets(const SurfaceFoot& foot) {
     const auto t = static_cast<std::uint32_t>(at(foot.triangle));
-    if (part_[t] == Part::kCap) return 0;
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        const std::size_t corner = static_cast<std::size_t>(k);
-        std::uint64_t bits = (std::uint64_t{draw} << 32) + surface_.triangles[t][corner].value;
-        bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;  // splitmix64: one bit decides the sign
-        bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
-        const double offset = quadrics_[quadric(t, k)].offset;
-        sum += foot.weight[corner] * ((bits >> 40) % 2 == 0 ? offset : -offset);
-    }
-    return sum;
+    if (part_[t] == Part::kCap) return {};
+    return {quadrics_[quadric(t, 0)].offset, quadrics_[quadric(t, 1)].offset, quadrics_[quadric(t, 2)].offset};
 }
 
 SurfaceFoot CurvedSurface::nearest(Vec3 x, Vec3 hint, TriangleId hint_triangle) {

@@ -48,8 +48,8 @@ public:
     /// where their neighbours would put them [length].
     [[nodiscard]] double uncertainty(const SurfaceFoot& foot);
 
-    /// One such error drawn at random, the same for all feet around a site. @param draw its number
-    [[nodiscard]] double disturbance(const SurfaceFoot& foot, std::uint32_t draw);
+    /// The same heights of the corners of a foot's facet, signed; zero on caps [length].
+    [[nodiscard]] std::array<double, 3> corner_offsets(const SurfaceFoot& foot);
 
     [[nodiscard]] const Surface& surface() const { return surface_; }
     [[nodiscard]] const SurfaceDistance& flat() const { return flat_; }

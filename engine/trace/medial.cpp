@@ -27,8 +27,6 @@ constexpr double kWindow = 0.5;                         // of the radius: half t
 constexpr double kLookAhead = 0.6;    // of the radius: where from the feet in each direction are sought
 constexpr double kFirstReach = 0.15;  // of the radius
 constexpr int kRounds = 4;
-constexpr double kSag = 4e-4;         // of the radius: of the line's pieces, as long as they are not too many
-constexpr int kMostPieces = 4;        // of a segment
 constexpr int kSearchRounds = 2;      // of them with searches in all directions
 constexpr std::size_t kStagger = 3;   // nodes in turn look in directions turned by this part of the angle between two
 constexpr std::size_t kShared = 2;    // nodes on either side whose places bound a node's ball too
@@ -211,7 +209,7 @@ void MedialRefiner::find_places(int round) {
     }
 }
 
-void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved, bool disturbed) {
+void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved) {
     const Vec3 d = ridge.position - foot.point;
     WallBound bound;
     bound.value = norm(d);
@@ -235,8 +233,6 @@ void MedialRefiner::add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, b
             bound.hessian[1] += bend * a * b;
             bound.hessian[2] += bend * b * b;
         }
-    if (disturbed)
-        for (std::uint32_t draw = 0; draw < kDraws; ++draw) bound.disturbance[draw] = curved_.disturbance(foot, draw);
     problem_.bounds.push_back(bound);
 }
 
@@ -247,7 +243,7 @@ void MedialRefiner::set_bounds(bool all, std::size_t shared) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         for (; ahead < nodes_.size() && ahead <= i + kHalo; ++ahead)
             if (nodes_[ahead].moved > rest_ * nodes_[ahead].radius) awake_until = ahead + kHalo + 1;
-        set_bounds(i, shared, all);
+        set_bounds(i, shared);
         if (!all && shared > 0 && i >= awake_until) {
             problem_.nodes[i].reach = 0;
             problem_.bounds.resize(problem_.nodes[i].first);
@@ -256,7 +252,7 @@ void MedialRefiner::set_bounds(bool all, std::size_t shared) {
     }
 }
 
-void MedialRefiner::set_bounds(std::size_t i, std::size_t shared, bool disturbed) {
+void MedialRefiner::set_bounds(std::size_t i, std::size_t shared) {
     Node& node = nodes_[i];
     RidgeNode& ridge = problem_.nodes[i];
     const std::size_t first = i < shared ? 0 : i - shared, last = std::min(i + shared, nodes_.size() - 1);
@@ -274,7 +270,7 @@ void MedialRefiner::set_bounds(std::size_t i, std::size_t shared, bool disturbed
     if (ridge.reach <= 0) return;
     const double relevant = least + kRelevant * node.reach;
     const auto add = [&](const SurfaceFoot& f, bool curved) {
-        if (distance(ridge.position, f.point) <= relevant) add_bound(ridge, f, curved, disturbed);
+        if (distance(ridge.position, f.point) <= relevant) add_bound(ridge, f, curved);
     };
     for (const SurfaceFoot& f : node.own) add(f, true);
     for (const SurfaceFoot& f : node.before) add(f, false);
@@ -298,23 +294,6 @@ double MedialRefiner::move_nodes() {
         nodes_[i].reach = std::min(nodes_[i].reach, std::max(2 * nodes_[i].moved, kLeastReach * nodes_[i].radius));
     }
     return largest;
-}
-
-double MedialRefiner::radius_at(Vec3 x, Vec3 tangent, double about) {
-    const Vec3 u = any_perpendicular(tangent), v = cross(tangent, u);
-    TriangleId triangle(std::size_t{0});
-    Vec3 hint = curved_.surface().points[at(curved_.surface().triangles[0][0])];
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < kDirections; ++k) {
-        const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kDirections;
-        const Vec3 p = x + (kLookAhead * about) * (std::cos(angle) * u + std::sin(angle) * v);
-        const SurfaceDistance::Nearest wall = curved_.flat().nearest(p, hint, triangle);
-        hint = wall.point;
-        triangle = wall.triangle;
-        const SurfaceFoot beyond = curved_.foot(p, wall.point, wall.triangle);
-        least = std::min(least, distance(x, curved_.foot(x, beyond.point, beyond.triangle).point));
-    }
-    return least;
 }
 
 double MedialRefiner::cost() const {
@@ -341,7 +320,7 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
             accuracy_ = std::clamp(kAccuracyShare * noise, kAccuracy, kRoughAccuracy);
             rest_ = std::max(kRestShare * noise, kRest);
         }
-        if (!solve_ridge(problem_, round == 0 ? kRoughAccuracy : accuracy_, false)) break;
+        if (!solve_ridge(problem_, round == 0 ? kRoughAccuracy : accuracy_)) break;
         if (move_nodes() < rest_) break;
     }
     find_places(kRounds);
@@ -366,52 +345,6 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
         append(line.ridge[i], line.nodes[i], i + 1 < line.nodes.size() ? &line.nodes[i + 1] : nullptr, result);
     finished_.push_back(std::move(line));
     return result;
-}
-
-void MedialRefiner::append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const {
-    result.line.append(ridge.position, node.radius);
-    result.path_abscissa.push_back(node.path_abscissa);
-    result.radius_error.push_back(node.radius_error);
-    result.position_error.push_back(node.position_error);
-    if (next == nullptr) return;
-    for (const Between& p : node.between) {
-        result.line.append(p.x, p.radius);
-        result.path_abscissa.push_back(std::lerp(node.path_abscissa, next->path_abscissa, p.share));
-        result.radius_error.push_back(std::lerp(node.radius_error, next->radius_error, p.share));
-        result.position_error.push_back(std::lerp(node.position_error, next->position_error, p.share));
-    }
-}
-
-void MedialRefiner::fill_in(std::size_t i) {
-    nodes_[i].between.clear();
-    if (i == 0 || i + 2 >= nodes_.size()) return;
-    const RidgeNode* node = &problem_.nodes[i];
-    const Vec3 a = node[-1].position, b = node[0].position, c = node[1].position, d = node[2].position;
-    const double ab = distance(a, b), bc = distance(b, c), cd = distance(c, d);
-    if (!(ab > 0 && bc > 0 && cd > 0)) return;
-    // Tangents of the circles through three nodes each, times the segment's length.
-    const Vec3 at_b = (bc / (ab + bc)) * ((bc / ab) * (b - a) + (ab / bc) * (c - b));
-    const Vec3 at_c = (bc / (bc + cd)) * ((cd / bc) * (c - b) + (bc / cd) * (d - c));
-    const double sag = 0.125 * norm(at_b - at_c) / nodes_[i].radius;
-    const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(sag / kSag))), 1, kMostPieces);
-    for (int k = 1; k < pieces; ++k) {
-        const double t = double{1} * k / pieces, u = 1 - t;
-        const Vec3 x = lerp(b, c, t * t * (3 - 2 * t)) + (t * u * u) * at_b - (t * t * u) * at_c;
-        const SurfaceFoot* nearest = nullptr;
-        double least = std::numeric_limits<double>::infinity();
-        const auto offer = [&](const SurfaceFoot& f) {
-            const double r = distance(x, f.point);
-            if (r >= least) return;
-            least = r;
-            nearest = &f;
-        };
-        for (const std::size_t j : {i, i + 1}) {
-            for (const SurfaceFoot& f : nodes_[j].own) offer(f);
-            for (const Contact& contact : nodes_[j].around) offer(contact.foot);
-        }
-        const double r = distance(x, curved_.foot(x, nearest->point, nearest->triangle).point);
-        nodes_[i].between.push_back({x, std::min(r, least), t});
-    }
 }
 
 }  // namespace lumenline

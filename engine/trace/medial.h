@@ -73,6 +73,17 @@ private:
         double uncertainty = 0, radius_error = 0, position_error = 0;  ///< [length]
     };
 
+    /// What the places around some nodes tell of the wall there; sums, to be divided by `weight`.
+    struct Section {
+        double weight = 0;
+        double offset2 = 0;     ///< squares of the sites' heights above where their neighbours would put them
+        double product = 0;     ///< of the heights of sites that share an edge
+        double edge2 = 0;       ///< squares of edges
+        double anisotropy = 0;  ///< 1 - (b / a)^2 of the section's conic, 0 where it is round
+
+        void add(const Section& other, double factor);
+    };
+
     /// A line refined before.
     struct Finished {
         Polyline path;
@@ -88,12 +99,13 @@ private:
     void find_own_feet(std::size_t node);
     void find_places(int round);
     void set_bounds(bool all, std::size_t shared);
-    void set_bounds(std::size_t node, std::size_t shared, bool disturbed);
-    void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved, bool disturbed);
+    void set_bounds(std::size_t node, std::size_t shared);
+    void add_bound(const RidgeNode& ridge, const SurfaceFoot& foot, bool curved);
     double move_nodes();
     void estimate_errors();
     [[nodiscard]] double noise_level() const;
-    [[nodiscard]] double sheet_likeness(std::size_t node) const;
+    [[nodiscard]] Section section(std::size_t node);
+    void set_errors(Node& node, const Section& mean) const;
     [[nodiscard]] double cost() const;
     void fill_in(std::size_t node);
     void append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const;

@@ -46,8 +46,7 @@ struct Slack {
 
 class Solver {
 public:
-    Solver(RidgeProblem& problem, double accuracy, bool responses)
-        : problem_(problem), accuracy_(accuracy), responses_(responses) {
+    Solver(RidgeProblem& problem, double accuracy) : problem_(problem), accuracy_(accuracy) {
         for (const RidgeNode& n : problem.nodes) scale_.push_back(n.radius);
         const std::size_t n = problem.nodes.size();
         w_.assign(n, Column::Zero());
@@ -70,7 +69,6 @@ public:
             if (mu <= accuracy_ && shared > 0.9 && largest_step() < std::max(kAtRest, 10 * accuracy_)) break;
             if (shared > 0.5) mu = std::max(mu * kMuFall, 0.5 * accuracy_);
         }
-        if (responses_) respond(mu);
         finish();
         return true;
     }
@@ -210,33 +208,6 @@ private:
         }
     }
 
-    /// What the disturbances of the bounds would do, to first order.
-    void respond(double mu) {
-        assemble(mu);
-        if (!factor()) return;
-        std::vector<double> move2(w_.size(), 0.0), radius2(w_.size(), 0.0);
-        for (std::size_t draw = 0; draw < kDraws; ++draw) {
-            for (std::size_t i = 0; i < w_.size(); ++i) {
-                const RidgeNode& n = problem_.nodes[i];
-                right_[i].setZero();
-                for (std::uint32_t k = n.first; n.reach > 0 && k < n.last; ++k) {
-                    const Slack& s = slacks_[offsets_[i] + k - n.first];
-                    right_[i] -=
-                        (s.pressure / s.value * problem_.bounds[k].disturbance[draw] / scale_[i]) * s.gradient(w_[i]);
-                }
-            }
-            substitute();
-            for (std::size_t i = 0; i < w_.size(); ++i) {
-                move2[i] += step_[i].head<2>().squaredNorm();
-                radius2[i] += step_[i][2] * step_[i][2];
-            }
-        }
-        for (std::size_t i = 0; i < w_.size(); ++i) {
-            problem_.nodes[i].move_response = scale_[i] * std::sqrt(move2[i] / kDraws);
-            problem_.nodes[i].radius_response = scale_[i] * std::sqrt(radius2[i] / kDraws);
-        }
-    }
-
     [[nodiscard]] double largest_step() const {
         double largest = 0;
         for (const Column& s : step_) largest = std::max(largest, s.lpNorm<Eigen::Infinity>());
@@ -264,21 +235,16 @@ private:
     }
 
     void finish() {
-        problem_.pressure.assign(problem_.bounds.size(), 0.0);
         for (std::size_t i = 0; i < w_.size(); ++i) {
             RidgeNode& n = problem_.nodes[i];
             if (n.reach <= 0) continue;
             n.move = {n.radius * w_[i][0], n.radius * w_[i][1]};
-            const double unit = n.radius;
-            n.radius = unit * w_[i][2];
-            for (std::uint32_t k = n.first; k < n.last; ++k)
-                problem_.pressure[k] = slacks_[offsets_[i] + k - n.first].pressure / weight_[i];
+            n.radius *= w_[i][2];
         }
     }
 
     RidgeProblem& problem_;
     double accuracy_, start_mu_ = 0;
-    bool responses_;
     std::vector<Column> w_, step_, right_;
     std::vector<Block> diagonal_, above_;
     std::vector<double> weight_, scale_;
@@ -288,8 +254,6 @@ private:
 
 }  // namespace
 
-bool solve_ridge(RidgeProblem& problem, double accuracy, bool responses) {
-    return Solver(problem, accuracy, responses).run();
-}
+bool solve_ridge(RidgeProblem& problem, double accuracy) { return Solver(problem, accuracy).run(); }
 
 }  // namespace lumenline

@@ -8,16 +8,12 @@
 
 namespace lumenline {
 
-/// Draws of the wall's errors whose effect on a line is followed.
-inline constexpr std::size_t kDraws = 6;
-
 /// Bound on the radius of a ball around a node by one place of the wall, as the node moves by y in its section:
 /// radius <= value + gradient . y + y . hessian y / 2.
 struct WallBound {
-    double value = 0;                          ///< distance of the node to the place [length]
-    std::array<double, 2> gradient{};          ///< along the section's axes
-    std::array<double, kDraws> disturbance{};  ///< of the value, as drawn [length]
-    std::array<double, 3> hessian{};           ///< 11, 12, 22; negative semidefinite [1/length]
+    double value = 0;                  ///< distance of the node to the place [length]
+    std::array<double, 2> gradient{};  ///< along the section's axes
+    std::array<double, 3> hessian{};   ///< 11, 12, 22; negative semidefinite [1/length]
 };
 
 /// A node of a line, free to move in its section.
@@ -28,15 +24,12 @@ struct RidgeNode {
     double reach = 0;                   ///< largest move along an axis; 0 = the node stays [length]
     std::uint32_t first = 0, last = 0;  ///< its bounds
     std::array<double, 2> move{};       ///< out: along the axes [length]
-    /// Out: root mean square over the draws of how disturbed bounds would move it and change its radius [length].
-    double move_response = 0, radius_response = 0;
 };
 
 /// A line between ridges of the distance to the wall.
 struct RidgeProblem {
     std::vector<RidgeNode> nodes;
     std::vector<WallBound> bounds;
-    std::vector<double> pressure;  ///< out, per bound: share of the node's cost that it carries, >= 0
 };
 
 /// Moves the nodes to minimise the cost, sum 2 atanh(L / (R1 + R2)) over the segments, with each radius
@@ -46,9 +39,8 @@ struct RidgeProblem {
 /// two opposite ones do, as on the sheet of a flat tube, the node is held across the sheet and free
 /// along it but for the bounds' curvature and the tension of the line: no case is told from another.
 /// @param accuracy  of moves and radii, relative to the radius
-/// @param responses whether to work out the responses to the bounds' disturbances
 /// @returns false where no step could be made: the nodes are left as they were
 /// @cost 15 to 25 steps of O(nodes + bounds)
-bool solve_ridge(RidgeProblem& problem, double accuracy, bool responses);
+bool solve_ridge(RidgeProblem& problem, double accuracy);
 
 }  // namespace lumenline

@@ -149,7 +149,7 @@ TEST(Ridge, NodeBetweenFourWallsComesToTheirMiddle) {
         node.last = static_cast<std::uint32_t>(problem.bounds.size());
         problem.nodes.push_back(node);
     }
-    ASSERT_TRUE(solve_ridge(problem, 1e-10, false));
+    ASSERT_TRUE(solve_ridge(problem, 1e-10));
     for (const RidgeNode& node : problem.nodes) {
         EXPECT_NEAR(node.position.x + node.move[0], 0, 1e-6);
         EXPECT_NEAR(node.position.y + node.move[1], 0, 1e-6);
@@ -176,7 +176,7 @@ TEST(Ridge, LineOnASheetIsDrawnStraight) {
         node.last = static_cast<std::uint32_t>(problem.bounds.size());
         problem.nodes.push_back(node);
     }
-    ASSERT_TRUE(solve_ridge(problem, 1e-10, false));
+    ASSERT_TRUE(solve_ridge(problem, 1e-10));
     for (const RidgeNode& node : problem.nodes) {
         EXPECT_NEAR(node.position.x + node.move[0], 0, 1e-5);
         EXPECT_NEAR(node.move[1], 0, 1e-6);
