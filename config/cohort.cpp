@@ -77,6 +77,8 @@ PipelineOptions read_options(const MapReader& top) {
                           std::array{Refinement::kNone, Refinement::kPath, Refinement::kMedial}, refinement_name);
     t.pairs = enumerated(centerlines.choice("pairs"), t.pairs, std::array{Pairs::kNearest, Pairs::kAll}, pairs_name);
     t.join = enumerated(centerlines.choice("join"), t.join, std::array{Join::kAxis, Join::kCentre}, join_name);
+    t.topology = enumerated(centerlines.choice("topology"), t.topology,
+                            std::array{Topology::kTree, Topology::kNetwork}, topology_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
     return options;
 }

@@ -55,6 +55,7 @@ constexpr std::array kKeys{
     KeyInfo{"centerlines.refine", "choice", "none|path|medial", "-", "medial"},
     KeyInfo{"centerlines.pairs", "choice", "nearest|all", "-", "nearest"},
     KeyInfo{"centerlines.join", "choice", "axis|centre", "-", "axis"},
+    KeyInfo{"centerlines.topology", "choice", "tree|network", "-", "tree"},
     KeyInfo{"characterize", "boolean", "", "-", "true"},
     KeyInfo{"run", "map", "", "-", "{}"},
     KeyInfo{"run.threads", "integer", "all", "threads", "all", {1, 4096, false}},

@@ -123,6 +123,7 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "refine", refinement_name(options.trace.refine));
     write(out, "pairs", pairs_name(options.trace.pairs));
     write(out, "join", join_name(options.trace.join));
+    write(out, "topology", topology_name(options.trace.topology));
     out << YAML::EndMap;
     write(out, "characterize", options.characterize ? "true" : "false");
     write_section(out, "run");

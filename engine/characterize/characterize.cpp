@@ -126,6 +126,7 @@ private:
         const double s = along(lines_.path.abscissa, foot);
         const double length = lines_.path.abscissa[lines_.path.offsets[line + 1] - 1];
         const auto within = [&](EndpointId id, double away) {
+            if (id.is_none()) return false;
             const Endpoint& e = endpoints_[at(id)];
             return e.opening.is_none() && away <= e.anchor_radius;
         };

@@ -33,11 +33,11 @@ private:
     void add_line(std::size_t line) {
         line_ = LineId(line);
         const std::size_t begin = lines_.path.offsets[line], end = lines_.path.offsets[line + 1];
-        Polygons before, here = polygons_of(begin, endpoints_[at(lines_.source[line])]), shared_before;
+        Polygons before, here = polygons_of(begin, lines_.source[line]), shared_before;
         for (std::size_t i = begin; i < end; ++i) {
             Polygons shared, after;
             if (i + 1 < end) {
-                after = polygons_of(i + 1, endpoints_[at(lines_.target[line])]);
+                after = polygons_of(i + 1, lines_.target[line]);
                 std::set_intersection(here.begin(), here.end(), after.begin(), after.end(), std::back_inserter(shared));
                 for (const PolygonId p : shared) add(p, i, point(i), point(i + 1), 0, 1);
                 if (shared.empty()) bridge(i, here, after);
@@ -52,10 +52,10 @@ private:
     }
 
     /// Polygons that hold the path's point i, ascending.
-    [[nodiscard]] Polygons polygons_of(std::size_t i, const Endpoint& anchor) const {
+    [[nodiscard]] Polygons polygons_of(std::size_t i, EndpointId end) const {
         const ComplexPoint& place = lines_.path.places[i];
         if (!place.a.is_none()) return polygons_of(place);
-        Polygons found = anchor.anchor_polygons;
+        Polygons found = endpoints_[at(end)].anchor_polygons;
         std::sort(found.begin(), found.end());
         return found;
     }

@@ -116,6 +116,7 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     const std::map<std::string, ComponentPolicy> policies{
         {"fail", ComponentPolicy::kFail}, {"largest", ComponentPolicy::kLargest}, {"each", ComponentPolicy::kEach}};
     const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
+    const std::map<std::string, Topology> topology{{"tree", Topology::kTree}, {"network", Topology::kNetwork}};
     verb.add_option("--mode", arguments.modes,
                     "Where ends come from: auto, boundaries, caps, tips, points; several with commas between them")
         ->delimiter(',')
@@ -137,6 +138,10 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     verb.add_option("--join", o.trace.join, "End lines on the axis or at the centre of their openings")
         ->transform(CLI::CheckedTransformer(joins))
         ->default_str("axis");
+    verb.add_option("--topology", o.trace.topology,
+                    "Lumen with loops: tree (a line to each target) or network (and two around each loop)")
+        ->transform(CLI::CheckedTransformer(topology))
+        ->default_str("tree");
     verb.add_option("--weld-tolerance", o.condition.weld_tolerance,
                     "Share of the diagonal within which vertices are one")
         ->check(CLI::Range(0.0, 0.01))

@@ -28,6 +28,7 @@ using VoronoiVertexId = Index<struct VoronoiVertexTag>;  ///< vertex of the embe
 using PolygonId = Index<struct PolygonTag>;              ///< polygon (or bare edge) of the complex
 using OpeningId = Index<struct OpeningTag>;              ///< opening of the conditioned surface
 using EndpointId = Index<struct EndpointTag>;            ///< inlet or outlet of a model
+using LoopId = Index<struct LoopTag>;                    ///< loop of the lumen
 
 /// The position an index stands for, for use with `operator[]`.
 template <class Tag>

@@ -50,6 +50,7 @@ std::string_view refinement_name(Refinement refinement) {
 std::string_view pairs_name(Pairs pairs) { return pairs == Pairs::kNearest ? "nearest" : "all"; }
 
 std::string_view join_name(Join join) { return join == Join::kAxis ? "axis" : "centre"; }
+std::string_view topology_name(Topology topology) { return topology == Topology::kTree ? "tree" : "network"; }
 
 namespace {
 
@@ -97,6 +98,7 @@ std::string canonical_text(const ModelTask& task) {
     line("centerlines.refine", refinement_name(o.trace.refine));
     line("centerlines.pairs", pairs_name(o.trace.pairs));
     line("centerlines.join", join_name(o.trace.join));
+    line("centerlines.topology", topology_name(o.trace.topology));
     line("characterize", o.characterize ? "true" : "false");
     return text;
 }

@@ -92,11 +92,18 @@ enum class Join : std::uint8_t {
     kCentre,  ///< at the area centroid of the opening's loop, the last radius of the line bent there
 };
 
+/// What the lines of a lumen with loops are.
+enum class Topology : std::uint8_t {
+    kTree,     ///< one line to each target: loops are reported
+    kNetwork,  ///< two more for each loop, which meet behind it
+};
+
 /// Options of engine/trace.
 struct TraceOptions {
     Refinement refine = Refinement::kMedial;
     Pairs pairs = Pairs::kNearest;
     Join join = Join::kAxis;
+    Topology topology = Topology::kTree;
 };
 
 /// Everything that determines the result for one surface.
@@ -124,6 +131,7 @@ std::string rule_text(const InletRule& rule);
 std::string_view refinement_name(Refinement refinement);  ///< "none" | "path" | "medial"
 std::string_view pairs_name(Pairs pairs);                 ///< "nearest" | "all"
 std::string_view join_name(Join join);                    ///< "axis" | "centre"
+std::string_view topology_name(Topology topology);        ///< "tree" | "network"
 
 /// Canonical text of everything in `task` that determines its result, one `key=value` a line:
 /// options, points, scale, and the version of every stage's algorithm. Part of `inputs_sha256`.

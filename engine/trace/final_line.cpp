@@ -13,6 +13,7 @@ namespace lumenline {
 namespace {
 
 constexpr double kCostRounding = 1e-6;  // of the cost: what its sampling at other nodes may change
+constexpr double kMeetingGap = 0.1;     // of the ball radius: between the ends of a loop's two refined sides
 constexpr double kStray = 1.0;          // of the path's ball radius
 
 }  // namespace
@@ -23,6 +24,11 @@ double Graph::operator()(double at) const {
     if (above == x_.end()) return y_.back();
     const auto i = static_cast<std::size_t>(above - x_.begin());
     return std::lerp(y_[i - 1], y_[i], (at - x_[i - 1]) / (x_[i] - x_[i - 1]));
+}
+
+LineStop stop_at(const Endpoint& endpoint) {
+    const bool opening = !endpoint.opening.is_none();
+    return {endpoint.point, endpoint.normal, opening, opening};
 }
 
 FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_front, const LineCheck& check) {
@@ -38,9 +44,9 @@ FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_
     return final;
 }
 
-std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from, const Endpoint& to,
+std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from, const LineStop& to,
                                      MedialRefiner& refiner, LineVerifier& verifier, std::string& why) {
-    const LineEnd start{!from.opening.is_none(), -from.normal}, end{!to.opening.is_none(), to.normal};
+    const LineEnd start{from.free, -from.normal}, end{to.free, to.normal};
     const RefinedLine refined = refiner.refine(path, start, end);
     if (refined.line.size() < 2) {
         why = "not be found, for want of length or of a step that improves it";
@@ -61,8 +67,8 @@ std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from,
     FinalLine final;
     final.line = refined.line;
     double cut_front = 0;
-    if (start.free) cut_front = cut_at_plane(final.line, from.point, from.normal, true);
-    if (end.free) cut_at_plane(final.line, to.point, to.normal, false);
+    if (from.cut) cut_front = cut_at_plane(final.line, from.point, from.normal, true);
+    if (to.cut) cut_at_plane(final.line, to.point, to.normal, false);
     if (final.line.size() < 2) {
         why = "have no part between the planes of its openings";
         return std::nullopt;
@@ -90,6 +96,24 @@ std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from,
     for (const double s : path.abscissa)
         final.path_to_line.push_back(std::clamp(along(s) - cut_front, 0.0, final.line.abscissa.back()));
     return final;
+}
+
+bool end_together(const FinalLine& first, FinalLine& second, LineVerifier& verifier) {
+    const Vec3 end = first.line.points.back();
+    const std::size_t last = second.line.size() - 1;
+    if (distance(end, second.line.points[last]) > kMeetingGap * first.line.radius.back()) return false;
+    second.line.points[last] = end;
+    second.line.radius[last] = first.line.radius.back();
+    second.line.abscissa[last] = second.line.abscissa[last - 1] + distance(second.line.points[last - 1], end);
+    second.ball_radius[last] = first.ball_radius.back();
+    second.clearance[last] = first.clearance.back();
+    second.radius_error[last] = first.radius_error.back();
+    second.position_error[last] = first.position_error.back();
+    for (double& s : second.path_to_line) s = std::min(s, second.line.abscissa[last]);
+    second.path_to_line.back() = second.line.abscissa[last];
+    Polyline checked = second.line;
+    checked.radius = second.ball_radius;
+    return verifier.check(checked).inside;
 }
 
 }  // namespace lumenline

@@ -34,6 +34,14 @@ private:
 /// No piece of a line turns against the one before it by more: pieces are a small part of a radius long, on which no
 /// axis turns so far.
 inline constexpr double kSharpestTurn = 0.5;  // cosine
+/// Where a line starts or ends.
+struct LineStop {
+    Vec3 point, normal;  ///< a plane across the line, the normal out of it
+    bool cut = false;    ///< the line goes on beyond the plane and is cut there
+    bool free = false;   ///< before that its end moves in the plane's direction; else it stays
+};
+/// At an opening the plane cuts the line; elsewhere it ends at the anchor.
+LineStop stop_at(const Endpoint& endpoint);
 
 /// The path itself as the line. True radii lie between clearance and ball radius: their difference is
 /// the radius error; there is no estimate of the position's.
@@ -45,7 +53,11 @@ FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_
 /// @param why  set where there is no line: what the refined line would do, for the diagnostics
 /// @returns nothing where the refined line leaves the lumen, is costlier than the path by its own measure, strays
 ///          from it by more than its balls' radii, turns sharply, or has no part between the planes
-std::optional<FinalLine> refine_line(const Polyline& path, const Endpoint& from, const Endpoint& to,
+std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from, const LineStop& to,
                                      MedialRefiner& refiner, LineVerifier& verifier, std::string& why);
+
+/// Lets the second of two lines that meet, the sides of a loop, end in the last point of the first.
+/// @returns false, the second line then of no use, where their ends are apart or it leaves the lumen
+bool end_together(const FinalLine& first, FinalLine& second, LineVerifier& verifier);
 
 }  // namespace lumenline

@@ -18,11 +18,15 @@ namespace lumenline {
 /// planes, and verified. A refined line that leaves the lumen or is no better by its own measure is
 /// dropped for its path, with the note line_not_refined.
 ///
+/// On a surface of genus > 0 the loops of the lumen are found (loops.h) and reported: loop_not_covered for a tree. For
+/// a network each gets two lines from its source, down its two sides to one common point, made like the others; if one
+/// of them has to be left out both are.
+///
 /// A target that no front reached, and a line that would leave the lumen, are errors of that target
 /// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced. Parts of
 /// the wall that no front reached are a warning (wall_unreached).
 /// @param fields  one per source, each with its source set
-/// @returns lines ordered by target, then source
+/// @returns lines ordered by target, then source; after them those of loops, in the order of the loops
 /// @throws StageError kNoLineTraced when not one target has a line
 /// @cost O(path length) per line, and one distance query per point
 Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,

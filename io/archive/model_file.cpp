@@ -207,12 +207,29 @@ void write_centerlines(Writer& writer, const Centerlines& lines) {
     writer.column(names::kAbscissa, lines.abscissa, points);
     writer.column(names::kLineSource, lines.source, count);
     writer.column(names::kLineTarget, lines.target, count);
+    writer.column(names::kLineLoop, lines.loop, count);
     const PathLines& path = lines.path;
     writer.column(names::kPathOffsets, path.offsets, count + 1);
     writer.column(names::kPathPoints, path.points, path.offsets.back());
     writer.column(names::kPathBallRadius, path.ball_radius, path.points.size());
     writer.column(names::kPathAbscissa, path.abscissa, path.points.size());
     writer.column(names::kLineAbscissa, path.line_abscissa, path.points.size());
+}
+
+void write_loops(Writer& writer, const std::vector<LumenLoop>& loops) {
+    std::vector<Vec3> points;
+    std::vector<double> radii, times;
+    std::vector<EndpointId> sources;
+    for (const LumenLoop& loop : loops) {
+        points.push_back(loop.point);
+        radii.push_back(loop.ball_radius);
+        times.push_back(loop.time);
+        sources.push_back(loop.source);
+    }
+    writer.column(names::kLoopPoint, points);
+    writer.column(names::kLoopBallRadius, radii);
+    writer.column(names::kLoopTime, times);
+    writer.column(names::kLoopSource, sources);
 }
 
 void write_diagnostics(Writer& writer, const Diagnostics& found) {
@@ -252,7 +269,10 @@ void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& 
     if (record.endpoints) write_endpoints(writer, *record.endpoints);
     if (record.complex) write_complex(writer, *record.complex);
     write_fields(writer, record, options);
-    if (record.centerlines) write_centerlines(writer, *record.centerlines);
+    if (record.centerlines) {
+        write_centerlines(writer, *record.centerlines);
+        write_loops(writer, record.centerlines->loops);
+    }
     if (record.character) write_character(writer, record, options);
     write_diagnostics(writer, record.diagnostics);
     write_vtkhdf(writer, record);

@@ -103,13 +103,19 @@ inline constexpr Field kPositionError{"/centerlines/position_error", "length",
     "estimated distance of the point from the true line; NaN = no estimate"};
 inline constexpr Field kAbscissa{"/centerlines/abscissa", "length", "arc length from the line's first point"};
 inline constexpr Field kLineSource{"/centerlines/source", "1", "endpoint where each line starts"};
-inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends"};
+inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends; -1 = in its loop's point"};
+inline constexpr Field kLineLoop{"/centerlines/loop", "1", "loop in whose point the line ends; -1 = at its target"};
 inline constexpr Field kPathPoints{"/centerlines/path/points", "length", "points of the descent paths on the complex"};
 inline constexpr Field kPathOffsets{"/centerlines/path/offsets", "1", "start of each path in the arrays per point"};
 inline constexpr Field kPathBallRadius{"/centerlines/path/ball_radius", "length", "radius of the Voronoi ball"};
 inline constexpr Field kPathAbscissa{"/centerlines/path/abscissa", "length", "arc length of the path from its source"};
 inline constexpr Field kLineAbscissa{"/centerlines/path/line_abscissa", "length",
     "abscissa of the corresponding point of the final line"};
+
+inline constexpr Field kLoopPoint{"/loops/point", "length", "where the two sides of the loop meet"};
+inline constexpr Field kLoopBallRadius{"/loops/ball_radius", "length", "of the Voronoi vertex where the fronts meet"};
+inline constexpr Field kLoopTime{"/loops/arrival_time", "1", "when the fronts meet there"};
+inline constexpr Field kLoopSource{"/loops/source", "1", "endpoint from which the front runs around it"};
 
 inline constexpr Field kCovariateName{"/covariates/name", "1", "column of the cohort's table"};
 inline constexpr Field kCovariateValue{"/covariates/value", "1", "this model's value, as written"};

@@ -95,6 +95,9 @@ TEST(ModelFile, LinesAndPathsComeBackExactly) {
     EXPECT_TRUE(std::isnan(position_error[3]));
     EXPECT_EQ(position_error[4], lines.position_error[4]);
     EXPECT_EQ(file.numbers("/centerlines/target"), (Numbers{1, 3}));
+    EXPECT_EQ(file.numbers("/centerlines/loop"), (Numbers{-1, -1}));
+    EXPECT_EQ(file.numbers("/loops/point"), (Numbers{0.25, 0.5, 0.75}));
+    EXPECT_EQ(file.numbers("/loops/arrival_time"), (Numbers{3.5}));
     EXPECT_EQ(file.numbers("/centerlines/path/line_abscissa"), lines.path.line_abscissa);
 }
 

@@ -96,6 +96,8 @@ std::shared_ptr<const Centerlines> sample_lines() {
     }
     lines->source = {EndpointId(0), EndpointId(0)};
     lines->target = {EndpointId(1), EndpointId(3)};
+    lines->loop.resize(2);
+    lines->loops = {{EndpointId(1), {0.25, 0.5, 0.75}, 0.125, 3.5}};
     lines->path.offsets = {0, 6, 11};
     for (int q = 0; q < 11; ++q) {
         const int along = q < 6 ? q : q - 6;

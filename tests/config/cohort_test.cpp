@@ -62,7 +62,7 @@ endpoints: {mode: points}
 condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: false, drop_faces: false,
             orient_faces: false, split_non_manifold: false, fill_holes: false, repair_self_intersections: false,
             speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
-centerlines: {refine: none, pairs: all, join: centre}
+centerlines: {refine: none, pairs: all, join: centre, topology: network}
 characterize: false
 run: {threads: 3, models_in_flight: 7}
 archive: {directory: ../out, precision: float64})"));
@@ -82,6 +82,7 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(task.options.trace.refine, Refinement::kNone);
     EXPECT_EQ(task.options.trace.pairs, Pairs::kAll);
     EXPECT_EQ(task.options.trace.join, Join::kCentre);
+    EXPECT_EQ(task.options.trace.topology, Topology::kNetwork);
     EXPECT_FALSE(task.options.characterize);
     EXPECT_EQ(config.run.threads, 3);
     EXPECT_EQ(config.run.models_in_flight, 7);
@@ -104,6 +105,7 @@ TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
         EXPECT_EQ(folder.load(with("coordinate_system: " + system)).tasks.at(0).identity.coordinate_system, system);
     EXPECT_EQ(folder.load(with("centerlines: {refine: path}")).tasks.at(0).options.trace.refine, Refinement::kPath);
     EXPECT_EQ(folder.load(with("centerlines: {pairs: nearest}")).tasks.at(0).options.trace.pairs, Pairs::kNearest);
+    EXPECT_EQ(folder.load(with("centerlines: {topology: tree}")).tasks.at(0).options.trace.topology, Topology::kTree);
     EXPECT_TRUE(folder.load(with("archive: {precision: float32}")).archive.float32_fields);
     EXPECT_EQ(folder.load(with("run: {threads: all, models_in_flight: auto}")).run.threads, 0);
 }
