@@ -103,7 +103,7 @@ inline constexpr Field kPositionError{"/centerlines/position_error", "length",
     "estimated distance of the point from the true line; NaN = no estimate"};
 inline constexpr Field kAbscissa{"/centerlines/abscissa", "length", "arc length from the line's first point"};
 inline constexpr Field kLineSource{"/centerlines/source", "1", "endpoint where each line starts"};
-inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends; -1 = in its loop's point"};
+inline constexpr Field kLineTarget{"/centerlines/target", "1", "endpoint where each line ends; -1 = at its loop"};
 inline constexpr Field kLineLoop{"/centerlines/loop", "1", "loop in whose point the line ends; -1 = at its target"};
 inline constexpr Field kPathPoints{"/centerlines/path/points", "length", "points of the descent paths on the complex"};
 inline constexpr Field kPathOffsets{"/centerlines/path/offsets", "1", "start of each path in the arrays per point"};
