@@ -14,6 +14,7 @@
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
 #include "engine/core/text.h"
+#include "io/archive/line_names.h"
 #include "io/archive/names.h"
 #include "io/archive/read.h"
 #include "io/archive/utf8.h"

@@ -13,6 +13,7 @@
 
 #include "engine/core/text.h"
 #include "engine/core/version.h"
+#include "io/archive/line_names.h"
 #include "io/archive/vtkhdf.h"
 #include "io/archive/writer.h"
 

@@ -9,6 +9,7 @@
 
 #include "io/archive/index.h"
 #include "io/archive/index_names.h"
+#include "io/archive/line_names.h"
 #include "io/archive/read.h"
 
 namespace lumenline {

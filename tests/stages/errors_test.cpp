@@ -84,7 +84,7 @@ TEST(MedialErrors, EstimatesCoverNineTenthsOfTheErrorsAndAreNoMoreThanThriceThem
 }
 
 // On flat sections errors are as long as the line's tension reaches: two lines hold few independent ones, and what
-// they cover scatters. Over eight seeds it is 0.7 to 0.99.
+// they cover scatters: from seed to seed between 0.7 and 0.99.
 TEST(MedialErrors, EstimatesOfFlatSectionsFollowTheErrors) {
     for (const double noise : {0.01, 0.05}) {
         const Measured measured = measure({PhantomKind::kCylinder, 3, 20, noise}, 11, 2);

@@ -270,7 +270,7 @@ TEST(Loops, TreeOfTubesHasNone) {
         outlet{hairpin.truth.position(hairpin.truth.total_length())};
     const test::Traced tree = test::trace_closed(surface, inlet, outlet);
     const test::Traced network =
-        test::trace_closed(surface, inlet, outlet, {Refinement::kMedial, Pairs::kNearest, Topology::kNetwork});
+        test::trace_closed(surface, inlet, outlet, {Refinement::kMedial, Pairs::kNearest, Join::kAxis, Topology::kNetwork});
     EXPECT_TRUE(network.lines.loops.empty());
     EXPECT_EQ(network.lines.points, tree.lines.points);
     EXPECT_EQ(network.findings.size(), tree.findings.size());
