@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "config/models.h"
 #include "config/reader.h"
 #include "config/text_file.h"
+#include "config/values.h"
 
 namespace lumenline {
 
@@ -83,6 +85,24 @@ PipelineOptions read_options(const MapReader& top) {
     return options;
 }
 
+void read_limits(const MapReader& run, RunOptions& options) {
+    constexpr double kByteStep = 1000;
+    static constexpr std::array<std::string_view, 4> kSizes{"%", "MB", "GB", "TB"};
+    if (const auto memory = run.quantity_or_word("memory", kSizes)) {
+        const YamlEntry& entry = *run.find("memory");
+        if (memory->unit == "%" && memory->number > 100) fail(run.place(entry), "must be 100% or less");
+        if (memory->unit == "%")
+            options.memory_percent = memory->number;
+        else
+            options.memory_bytes = memory->number * std::pow(kByteStep, memory->unit == "MB"   ? 2
+                                                                        : memory->unit == "GB" ? 3
+                                                                                               : 4);
+    }
+    static constexpr std::array<std::string_view, 3> kTimes{"s", "min", "h"};
+    if (const auto timeout = run.quantity_or_word("model_timeout", kTimes))
+        options.model_timeout = timeout->number * (timeout->unit == "h" ? 3600 : timeout->unit == "min" ? 60 : 1);
+}
+
 }  // namespace
 
 ConfigError::ConfigError(const std::filesystem::path& file, std::size_t line, const std::string& sentence)
@@ -103,6 +123,7 @@ CohortConfig load_cohort(const std::filesystem::path& yaml) {
     const MapReader run = top.section("run");
     config.run.threads = run.integer_or_word("threads").value_or(config.run.threads);
     config.run.models_in_flight = run.integer_or_word("models_in_flight").value_or(config.run.models_in_flight);
+    read_limits(run, config.run);
 
     const MapReader archive = top.section("archive");
     config.archive.directory = folder / archive.text("directory").value_or("results");

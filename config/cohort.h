@@ -27,8 +27,11 @@ private:
 
 /// How a run uses the machine; without influence on results.
 struct RunOptions {
-    int threads = 0;           ///< 0 = all
-    int models_in_flight = 0;  ///< models held in memory at once; 0 = automatic: 2 x threads
+    int threads = 0;             ///< 0 = all
+    int models_in_flight = 0;    ///< models held in memory at once; 0 = automatic: 2 x threads
+    double memory_percent = 70;  ///< of the memory this process may use, for the models in flight
+    double memory_bytes = 0;     ///< the same in bytes, which stands instead; 0 = not stated
+    double model_timeout = 0;    ///< work on one model after which it fails [s]; 0 = none
 };
 
 /// Where results go and in which form.

@@ -60,6 +60,8 @@ constexpr std::array kKeys{
     KeyInfo{"run", "map", "", "-", "{}"},
     KeyInfo{"run.threads", "integer", "all", "threads", "all", {1, 4096, false}},
     KeyInfo{"run.models_in_flight", "integer", "auto", "models", "auto", {1, 65536, false}},
+    KeyInfo{"run.memory", "size", "", "-", "70%"},
+    KeyInfo{"run.model_timeout", "duration", "off", "-", "off"},
     KeyInfo{"archive", "map", "", "-", "{}"},
     KeyInfo{"archive.directory", "path", "", "-", "results"},
     KeyInfo{"archive.precision", "choice", "float32|float64", "-", "float32"},

@@ -159,6 +159,16 @@ std::optional<int> MapReader::integer_or_word(std::string_view key) const {
     return parse_integer(place(*entry), unquoted(*entry, "a whole number").text, asked);
 }
 
+std::optional<Quantity> MapReader::quantity_or_word(std::string_view key,
+                                                    std::span<const std::string_view> units) const {
+    const YamlEntry* entry = find(key);
+    if (entry == nullptr) return std::nullopt;
+    const YamlNode& node = scalar(*entry, "a number and a unit");
+    const std::vector<std::string_view> words = choice_words(info(key));
+    if (std::ranges::find(words, node.text) != words.end()) return Quantity{};
+    return parse_quantity(place(*entry), node.text, units);
+}
+
 std::vector<Vec3> MapReader::points(std::string_view key) const {
     const YamlEntry* entry = find(key);
     if (entry == nullptr) return {};

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +39,9 @@ public:
     [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
     /// A whole number; the key's word for "let the program choose" gives 0.
     [[nodiscard]] std::optional<int> integer_or_word(std::string_view key) const;
+    /// A number with one of `units`; the key's word for "none" gives the number 0.
+    [[nodiscard]] std::optional<Quantity> quantity_or_word(std::string_view key,
+                                                           std::span<const std::string_view> units) const;
     [[nodiscard]] std::vector<Vec3> points(std::string_view key) const;  ///< [[x, y, z], ...]; empty when absent
     /// Points or, where the value is a text that starts with a letter, rules; both empty when absent.
     [[nodiscard]] std::pair<std::vector<Vec3>, std::vector<InletRule>> points_or_rules(std::string_view key) const;

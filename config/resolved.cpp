@@ -129,6 +129,9 @@ std::string resolved_text(const CohortConfig& config) {
     write_section(out, "run");
     write(out, "threads", count_or(config.run.threads, "all"));
     write(out, "models_in_flight", count_or(config.run.models_in_flight, "auto"));
+    write(out, "memory", config.run.memory_bytes > 0 ? exact_text(config.run.memory_bytes / 1e6) + " MB"
+                                                     : exact_text(config.run.memory_percent) + "%");
+    write(out, "model_timeout", config.run.model_timeout > 0 ? exact_text(config.run.model_timeout) + " s" : "off");
     out << YAML::EndMap;
     write_section(out, "archive");
     write_quoted(out, "directory", directory_text(config));

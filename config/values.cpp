@@ -113,6 +113,18 @@ int parse_integer(const Place& place, std::string_view text, const KeyInfo& key)
     return value;
 }
 
+Quantity parse_quantity(const Place& place, std::string_view text, std::span<const std::string_view> units) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+    std::string_view unit = text.substr(digits);
+    if (unit.starts_with(' ')) unit.remove_prefix(1);
+    const bool known = std::ranges::find(units, unit) != units.end();
+    if (digits == 0 || !known || !is_decimal(text.substr(0, digits)))
+        fail(place, fmt::format("must be a number and a unit ({}), not {}", spoken_list(units), in_quotes(text)));
+    const double number = parse_decimal(place, text.substr(0, digits));
+    if (number <= 0) fail(place, fmt::format("must be above 0, not {}", in_quotes(text)));
+    return {number, std::string(unit)};
+}
+
 double parse_coordinate(const Place& place, std::string_view text) { return parse_decimal(place, text); }
 
 std::vector<Vec3> parse_points(const Place& place, std::string_view cell) {

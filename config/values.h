@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,15 @@ double parse_number(const Place& place, std::string_view text, const KeyInfo& ke
 
 /// A whole number within the key's limits, in digits alone.
 int parse_integer(const Place& place, std::string_view text, const KeyInfo& key);
+
+/// A number and its unit, "12 GB" or "70%", without or with one blank between them.
+struct Quantity {
+    double number = 0;
+    std::string unit;  ///< one of those allowed
+};
+
+/// A positive quantity in one of `units`.
+Quantity parse_quantity(const Place& place, std::string_view text, std::span<const std::string_view> units);
 
 /// One coordinate: a finite decimal number.
 double parse_coordinate(const Place& place, std::string_view text);

@@ -28,6 +28,9 @@ void expect_same(const CohortConfig& a, const CohortConfig& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.run.threads, b.run.threads);
     EXPECT_EQ(a.run.models_in_flight, b.run.models_in_flight);
+    EXPECT_EQ(a.run.memory_percent, b.run.memory_percent);
+    EXPECT_EQ(a.run.memory_bytes, b.run.memory_bytes);
+    EXPECT_EQ(a.run.model_timeout, b.run.model_timeout);
     EXPECT_EQ(a.archive.directory, b.archive.directory);
     EXPECT_EQ(a.archive.float32_fields, b.archive.float32_fields);
     ASSERT_EQ(a.tasks.size(), b.tasks.size());
@@ -64,7 +67,7 @@ condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: 
             speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
 centerlines: {refine: none, pairs: all, join: centre, topology: network}
 characterize: false
-run: {threads: 3, models_in_flight: 7}
+run: {threads: 3, models_in_flight: 7, memory: 1.5 GB, model_timeout: 30min}
 archive: {directory: ../out, precision: float64})"));
     const ModelTask& task = config.tasks.at(0);
     EXPECT_EQ(task.identity.length_unit, "mm");
@@ -86,6 +89,8 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_FALSE(task.options.characterize);
     EXPECT_EQ(config.run.threads, 3);
     EXPECT_EQ(config.run.models_in_flight, 7);
+    EXPECT_EQ(config.run.memory_bytes, 1.5e9);
+    EXPECT_EQ(config.run.model_timeout, 1800);
     EXPECT_EQ(config.archive.directory, folder.path() / "../out");
     EXPECT_FALSE(config.archive.float32_fields);
 }
@@ -108,6 +113,11 @@ TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
     EXPECT_EQ(folder.load(with("centerlines: {topology: tree}")).tasks.at(0).options.trace.topology, Topology::kTree);
     EXPECT_TRUE(folder.load(with("archive: {precision: float32}")).archive.float32_fields);
     EXPECT_EQ(folder.load(with("run: {threads: all, models_in_flight: auto}")).run.threads, 0);
+    EXPECT_EQ(folder.load(with("run: {memory: 7%}")).run.memory_percent, 7);
+    EXPECT_EQ(folder.load(with("run: {memory: 2TB}")).run.memory_bytes, 2e12);
+    EXPECT_EQ(folder.load(with("run: {model_timeout: 90 s}")).run.model_timeout, 90);
+    EXPECT_EQ(folder.load(with("run: {model_timeout: 2h}")).run.model_timeout, 7200);
+    EXPECT_EQ(folder.load(with("run: {model_timeout: off}")).run.model_timeout, 0);
 }
 
 TEST(Cohort, InletsByRule) {

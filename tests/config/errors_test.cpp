@@ -159,6 +159,13 @@ TEST(ConfigErrors, NumbersArePlainDecimalsWithinLimits) {
         {with("run: {threads: auto}"), 2, "must be a whole number or 'all', not 'auto'"},
         {with("run: {models_in_flight: all}"), 2, "must be a whole number or 'auto', not 'all'"},
         {with("run: {models_in_flight: 0}"), 2, "must lie between 1 and 65536"},
+        {with("run: {memory: 70}"), 2, "must be a number and a unit (%, MB, GB or TB), not '70'"},
+        {with("run: {memory: 70 kB}"), 2, "must be a number and a unit"},
+        {with("run: {memory: 101%}"), 2, "must be 100% or less"},
+        {with("run: {memory: 0%}"), 2, "must be above 0"},
+        {with("run: {memory: -1 GB}"), 2, "must be a number and a unit"},
+        {with("run: {model_timeout: 30}"), 2, "must be a number and a unit (s, min or h), not '30'"},
+        {with("run: {model_timeout: 1..5 h}"), 2, "must be a number and a unit"},
     });
 }
 

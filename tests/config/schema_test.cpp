@@ -236,6 +236,8 @@ std::string type_fault(const KeyInfo& key, const json& schema) {
         {"map", "object"},
         {"map of texts", "object"},
         {"boolean", "boolean"},
+        {"size", "string"},
+        {"duration", "string"},
     };
     if (key.type == "points") return schema.value("$ref", "") == "#/$defs/points" ? "" : "type";
     if (key.type == "points or text") return schema.value("$ref", "") == "#/$defs/inlets" ? "" : "type";
@@ -288,7 +290,7 @@ TEST(Schema, JsonSchemaAgreesWithTheLoadersKeys) {
 TEST(Schema, JsonCheckSeesFaults) {
     const std::vector<json> patches{
         {{"op", "remove"}, {"path", "/properties/run/properties/threads"}},
-        {{"op", "add"}, {"path", "/properties/run/properties/memory"}, {"value", {{"type", "string"}}}},
+        {{"op", "add"}, {"path", "/properties/run/properties/cores"}, {"value", {{"type", "string"}}}},
         {{"op", "replace"}, {"path", "/properties/coordinate_system/enum"}, {"value", {"LPS", "RAS"}}},
         {{"op", "replace"}, {"path", "/properties/condition/properties/weld_tolerance/default"}, {"value", 1e-6}},
         {{"op", "replace"}, {"path", "/properties/condition/properties/weld_tolerance/type"}, {"value", "integer"}},
