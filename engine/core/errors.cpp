@@ -38,9 +38,15 @@ std::string_view error_name(ErrorCode code) {
         case ErrorCode::kArchiveWrite: return "archive_write";
         case ErrorCode::kInterrupted: return "interrupted";
         case ErrorCode::kOutOfMemory: return "out_of_memory";
+        case ErrorCode::kTimeout: return "timeout";
         case ErrorCode::kInternal: return "internal";
     }
     return "internal";
+}
+
+bool is_transient(ErrorCode code) {
+    return code == ErrorCode::kOutOfMemory || code == ErrorCode::kTimeout || code == ErrorCode::kInterrupted ||
+           code == ErrorCode::kArchiveWrite;
 }
 
 std::string_view severity_name(Severity severity) {

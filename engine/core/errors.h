@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace lumenline {
 
@@ -41,10 +42,16 @@ enum class ErrorCode {
     kInterrupted,        ///< the run was stopped
     kOutOfMemory,        ///< allocation failed
     kInternal,           ///< a broken promise of ours
+    kTimeout,            ///< more time than run.model_timeout
 };
+
+inline constexpr int kErrorCodeCount = 25;
 
 /// Stable snake_case name of a code, as written in the archive.
 std::string_view error_name(ErrorCode code);
+
+/// Codes that tell of the machine and not of the model: such a failure is tried again by the next run.
+bool is_transient(ErrorCode code);
 
 /// Unusable input. `what()` is one sentence: what is wrong, where, the measured value and its
 /// limit where there is one, what to do.
@@ -58,6 +65,19 @@ public:
 private:
     Stage stage_;
     ErrorCode code_;
+};
+
+/// A surface's file that was read and is of no use.
+class SourceError : public StageError {
+public:
+    SourceError(const StageError& reason, std::string source_sha256)
+        : StageError(reason), source_sha256_(std::move(source_sha256)) {}
+
+    /// Of the bytes that were read.
+    [[nodiscard]] const std::string& source_sha256() const { return source_sha256_; }
+
+private:
+    std::string source_sha256_;
 };
 
 }  // namespace lumenline

@@ -53,6 +53,7 @@ struct RunFacts {
 /// Everything known of one model when it is done or has failed. Parts that were not reached are null.
 struct ModelRecord {
     ModelIdentity identity;
+    std::string options;  ///< as resolved: canonical_text of its task
     ModelStatus status = ModelStatus::kFailed;
     std::optional<Failure> failure;  ///< set if and only if status is kFailed
     Diagnostics diagnostics;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,5 +35,18 @@ std::vector<ModelSummary> read_index(const std::filesystem::path& index_file);
 /// @throws ArchiveError, UnknownName if the file does not exist
 /// @cost   reads the arrays of the centerlines, not those of the surface or the complex
 ModelSummary read_summary(const std::filesystem::path& model_file);
+
+/// What a model's file says of the run that made it.
+struct ModelState {
+    std::string id;
+    ModelStatus status = ModelStatus::kFailed;
+    std::string source_sha256, inputs_sha256;
+    std::optional<Failure> failure;
+    double seconds = 0;  ///< of work
+};
+
+/// The state of a model from the attributes of its file alone; empty if there is no file.
+/// @throws ArchiveError if it is no model file, or damaged
+std::optional<ModelState> read_state(const std::filesystem::path& model_file);
 
 }  // namespace lumenline

@@ -242,7 +242,7 @@ void write_diagnostics(Writer& writer, const Diagnostics& found) {
     writer.column(names::kLimit, number_column<double>(found, [](const Diagnostic& d) { return d.limit; }));
 }
 
-void write_facts(Writer& writer, const RunFacts& facts) {
+void write_facts(Writer& writer, const RunFacts& facts, const std::string& options) {
     std::array<char, 256> host{};
     if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
     unsigned major = 0, minor = 0, release = 0;
@@ -253,6 +253,7 @@ void write_facts(Writer& writer, const RunFacts& facts) {
     writer.text(names::kCompiler, build_compiler());
     writer.text(names::kHdf5Version,
                 std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(release));
+    writer.text(names::kOptions, options);
     writer.number(names::kThreads, std::int32_t{facts.threads});
 
     std::vector<std::string> stages;
@@ -277,7 +278,7 @@ void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& 
     if (record.character) write_character(writer, record, options);
     write_diagnostics(writer, record.diagnostics);
     write_vtkhdf(writer, record);
-    write_facts(writer, record.facts);
+    write_facts(writer, record.facts, record.options);
 }
 
 }  // namespace

@@ -99,8 +99,7 @@ inline constexpr Field kCode{"/diagnostics/code", "1", "stable name of the findi
 inline constexpr Field kSeverity{"/diagnostics/severity", "1", "note | warning | error"};
 inline constexpr Field kStage{"/diagnostics/stage", "1", "stage that made the finding"};
 inline constexpr Field kMessage{"/diagnostics/message", "1", "one sentence"};
-inline constexpr Field kValue{"/diagnostics/value", "1",
-    "what was measured, in the unit the message states; NaN = none"};
+inline constexpr Field kValue{"/diagnostics/value", "1", "what was measured, in the unit the message states; NaN = none"};
 inline constexpr Field kLimit{"/diagnostics/limit", "1", "what it was held against; NaN = none"};
 
 inline constexpr Field kHost{"/provenance/host", "1", "machine that computed the model"};
@@ -108,6 +107,7 @@ inline constexpr Field kProgram{"/provenance/lumenline_version", "1", "version o
 inline constexpr Field kCommit{"/provenance/build_commit", "1", "commit the program was built from"};
 inline constexpr Field kCompiler{"/provenance/compiler", "1", "compiler that built it"};
 inline constexpr Field kHdf5Version{"/provenance/hdf5_version", "1", "version of the HDF5 library"};
+inline constexpr Field kOptions{"/provenance/options", "1", "options as resolved, versions of the stages: key=value a line"};
 inline constexpr Field kThreads{"/provenance/threads", "1", "threads of the run"};
 
 inline constexpr Field kTimingStage{"/timing/stage", "1", "stages of the pipeline, in order"};

@@ -33,7 +33,7 @@ Stage stage_of(const ArchiveFile& file, const std::string& name) {
 }
 
 ErrorCode code_of(const ArchiveFile& file, const std::string& name) {
-    for (int code = 0; code <= static_cast<int>(ErrorCode::kInternal); ++code)
+    for (int code = 0; code < kErrorCodeCount; ++code)
         if (error_name(static_cast<ErrorCode>(code)) == name) return static_cast<ErrorCode>(code);
     damaged(file, "'" + name + "' is no failure code that this program knows");
 }
@@ -269,6 +269,21 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     summary.voronoi_vertices = length_of(file, names::kVertices);
     summary.polygons = length_of(file, names::kPolygonSites);
     return summary;
+}
+
+std::optional<ModelState> read_state(const std::filesystem::path& model_file) {
+    std::error_code error;
+    if (!std::filesystem::exists(model_file, error)) return std::nullopt;
+    const ArchiveFile file(model_file);
+    require_format(file, names::kModelFormat);
+    ModelState state;
+    state.id = text_attribute(file, "id");
+    state.status = status_of(file, text_attribute(file, "status"));
+    state.source_sha256 = text_attribute(file, "source_sha256");
+    state.inputs_sha256 = text_attribute(file, "inputs_sha256");
+    if (state.status == ModelStatus::kFailed) state.failure = read_failure(file);
+    state.seconds = only_number(file, names::kTotalSeconds);
+    return state;
 }
 
 std::vector<ModelSummary> read_index(const std::filesystem::path& index_file) {

@@ -100,10 +100,14 @@ Bytes read_bytes(const std::string& path) {
 TriangleSoup read_surface(const std::string& path) {
     const mesh::Bytes bytes = mesh::read_bytes(path);
     const std::string_view view(bytes.data.get(), bytes.size);
-    TriangleSoup soup = mesh::parse_surface({path, view});
-    soup.source_file = path;
-    soup.source_sha256 = sha256_hex(view);
-    return soup;
+    try {
+        TriangleSoup soup = mesh::parse_surface({path, view});
+        soup.source_file = path;
+        soup.source_sha256 = sha256_hex(view);
+        return soup;
+    } catch (const StageError& error) {
+        throw SourceError(error, sha256_hex(view));
+    }
 }
 
 }  // namespace lumenline

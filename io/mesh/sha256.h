@@ -11,6 +11,9 @@ namespace lumenline {
 /// @throws std::runtime_error if the cryptographic library refuses
 std::string sha256_hex(std::span<const std::byte> bytes);
 
+/// SHA-256 of a file's bytes, read in blocks; empty if it is no regular file or cannot be read to its end.
+std::string sha256_of_file(const std::string& path);
+
 /// SHA-256 of the characters of `text`, without any terminator.
 std::string sha256_hex(std::string_view text);
 
