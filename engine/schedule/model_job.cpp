@@ -6,6 +6,7 @@
 
 #include "engine/characterize/characterize.h"
 #include "engine/condition/condition.h"
+#include "engine/core/text.h"
 #include "engine/endpoints/endpoints.h"
 #include "engine/trace/trace.h"
 #include "engine/voronoi/voronoi.h"
@@ -26,9 +27,10 @@ Failure describe(Stage stage, const std::exception& thrown) {
 
 }  // namespace
 
-ModelJob::ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled)
-    : task_(task), make_context_(std::move(make_context)), cancelled_(cancelled) {
+ModelJob::ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled, double timeout)
+    : task_(task), make_context_(std::move(make_context)), cancelled_(cancelled), timeout_(timeout) {
     record_.identity = task.identity;
+    record_.options = canonical_text(task);
 }
 
 void ModelJob::run(Stage stage, Diagnostics& findings, std::optional<Failure>& failure, double& seconds,
@@ -38,6 +40,7 @@ void ModelJob::run(Stage stage, Diagnostics& findings, std::optional<Failure>& f
         make_context_ ? make_context_(stage) : std::make_unique<StageContext>(stage, cancelled_);
     try {
         context->check_cancelled();
+        check_time(stage);
         body(*context);
     } catch (const std::exception& thrown) {
         failure = describe(stage, thrown);
@@ -52,9 +55,24 @@ void ModelJob::run(Stage stage, const std::function<void(StageContext&)>& body) 
         body);
 }
 
+void ModelJob::check_time(Stage stage) const {
+    if (timeout_ <= 0) return;
+    double spent = 0;
+    for (const double seconds : record_.facts.stage_seconds) spent += seconds;
+    if (spent > timeout_)
+        throw StageError(stage, ErrorCode::kTimeout,
+                         "the model had taken " + short_text(spent) + " s before this stage, more than its limit of " +
+                             short_text(timeout_) + " s (run.model_timeout)");
+}
+
 void ModelJob::load(const Loader& loader) {
     run(Stage::kLoad, [&](StageContext&) {
-        soup_ = loader(task_);
+        try {
+            soup_ = loader(task_);
+        } catch (const SourceError& error) {
+            record_.identity.source_sha256 = error.source_sha256();
+            throw;
+        }
         record_.identity.source_sha256 = soup_.source_sha256;
         record_.diagnostics.insert(record_.diagnostics.end(), soup_.diagnostics.begin(), soup_.diagnostics.end());
     });

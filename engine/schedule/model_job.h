@@ -23,7 +23,8 @@ public:
     /// How a stage gets its surroundings; null = serial.
     using ContextMaker = std::function<std::unique_ptr<StageContext>(Stage)>;
 
-    ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled);
+    /// @param timeout  work after which no further stage begins and the model fails [s]; 0 = none
+    ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled, double timeout = 0);
 
     void load(const Loader& loader);
     void condition();
@@ -55,12 +56,15 @@ private:
     void run(Stage stage, Diagnostics& findings, std::optional<Failure>& failure, double& seconds,
              const std::function<void(StageContext&)>& body) const;
     void run(Stage stage, const std::function<void(StageContext&)>& body);
+    /// Throws StageError kTimeout if the stages before `stage` took too long.
+    void check_time(Stage stage) const;
     /// Gathers the solved sources in endpoint order.
     void join_sources();
 
     const ModelTask& task_;
     ContextMaker make_context_;
     const std::atomic<bool>* cancelled_;
+    double timeout_;
     ModelRecord record_;
     TriangleSoup soup_;
     std::vector<Source> sources_;

@@ -4,10 +4,10 @@
 //       ^                                                        \__ failed: no sources ____________/ |
 //       |_________________________ release: writer <- characterize <---------------------------------|
 //
-// Admission is a serial node that holds the queue: it lets a model in for every one that leaves, so
-// no token can be lost between a failure and its release. The sources of a model count down; the
-// last one sends it on. Bodies never throw: an exception that leaves a node cancels the graph, and
-// with it every other model. The graph is built inside its arena, or it would run on one thread.
+// Admission is a serial node that holds the queue and what is free of places and memory: each model that leaves
+// gives back what it took, so no token can be lost between a failure and its release. The sources of a model count
+// down; the last one sends it on. Bodies never throw: an exception that leaves a node cancels the graph, and with it
+// every other model. The graph is built inside its arena, or it would run on one thread.
 #include "engine/schedule/run_models.h"
 
 #include <sys/resource.h>
@@ -17,11 +17,15 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <tuple>
+#include <vector>
 
 #include "engine/schedule/handover.h"
 
@@ -30,7 +34,21 @@ namespace lumenline {
 namespace {
 
 namespace flow = tbb::flow;
-using JobPtr = std::shared_ptr<ModelJob>;
+
+/// A model in flight, and what it took from the budget.
+struct AdmittedJob : ModelJob {
+    using ModelJob::ModelJob;
+    double bytes = 0;
+};
+
+/// What becomes free.
+struct Release {
+    int places = 0;
+    double bytes = 0;
+    int models = 0;  ///< that have left
+};
+
+using JobPtr = std::shared_ptr<AdmittedJob>;
 using SourceOfJob = std::pair<JobPtr, std::size_t>;
 
 /// Stage surroundings whose loops run on the arena's threads. Waiting for a loop takes no other work:
@@ -67,10 +85,13 @@ public:
                 const Sink& sink, RunReport& report)
         : tasks_(tasks),
           cancelled_(options.cancelled),
+          memory_(options.memory > 0 ? options.memory : std::numeric_limits<double>::infinity()),
+          memory_of_(options.memory_of),
+          timeout_(options.model_timeout),
           loader_(loader),
           sink_(sink),
           report_(report),
-          admission_(graph_, flow::serial, [this](int change, auto& ports) { admit(change, ports); }),
+          admission_(graph_, flow::serial, [this](const Release& r, auto& ports) { admit(r, ports); }),
           load_(graph_, flow::unlimited, [this](const JobPtr& job) { return step(job, [&] { job->load(loader_); }); }),
           condition_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->condition(); }); }),
           voronoi_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->build_complex(); }); }),
@@ -96,11 +117,14 @@ public:
     }
 
     void run(int in_flight) {
+        queue_.reserve(tasks_.size());
+        for (std::size_t i = tasks_.size(); i-- > 0;) queue_.push_back({i, memory_of_ ? memory_of_(tasks_[i]) : 0});
+        most_passed_ = in_flight;
         handed_on(this);
-        admission_.try_put(in_flight);
+        admission_.try_put({in_flight, memory_, 0});
         graph_.wait_for_all();
         taken(this);
-        report_.not_started = tasks_.size() - next_;
+        report_.not_started = queue_.size();
         if (sink_failure_) std::rethrow_exception(sink_failure_);
         const std::size_t known =
             report_.ok + report_.warning + report_.failed + report_.interrupted + report_.not_started;
@@ -109,7 +133,7 @@ public:
     }
 
 private:
-    using Admission = flow::multifunction_node<int, std::tuple<JobPtr>>;
+    using Admission = flow::multifunction_node<Release, std::tuple<JobPtr>>;
     using FanOut = flow::multifunction_node<JobPtr, std::tuple<SourceOfJob, JobPtr>>;
     using Solver = flow::multifunction_node<SourceOfJob, std::tuple<JobPtr>>;
     using StageNode = flow::function_node<JobPtr, JobPtr>;
@@ -124,15 +148,44 @@ private:
         return job;
     }
 
-    /// Lets `places` more models in.
-    void admit(int places, Admission::output_ports_type& ports) {
+    struct Waiting {
+        std::size_t task;
+        double bytes;
+    };
+
+    /// Lets in as many models as there is room for.
+    void admit(const Release& release, Admission::output_ports_type& ports) {
         const Handover scope(this);
-        for (; places > 0 && next_ < tasks_.size() && !stopped(); --places) {
+        places_ += release.places;
+        bytes_ += release.bytes;
+        in_flight_ -= release.models;
+        while (places_ > 0 && !stopped()) {
+            const auto chosen = next_that_fits();
+            if (chosen == queue_.rend()) return;
             const auto context = [this](Stage stage) { return std::make_unique<ParallelContext>(stage, cancelled_); };
-            const auto job = std::make_shared<ModelJob>(tasks_[next_++], context, cancelled_);
+            const auto job = std::make_shared<AdmittedJob>(tasks_[chosen->task], context, cancelled_, timeout_);
+            job->bytes = chosen->bytes;
+            --places_;
+            bytes_ -= job->bytes;
+            ++in_flight_;
+            queue_.erase(std::next(chosen).base());
             handed_on(job.get());
             std::get<0>(ports).try_put(job);
         }
+    }
+
+    /// The queue is in reverse: what is taken from it mostly stands at its end.
+    std::vector<Waiting>::reverse_iterator next_that_fits() {
+        const auto first = queue_.rbegin();
+        if (first == queue_.rend()) return first;
+        if (in_flight_ == 0 || first->bytes <= bytes_) {
+            passed_ = 0;
+            return first;
+        }
+        if (passed_ >= most_passed_) return queue_.rend();
+        const auto found = std::find_if(first, queue_.rend(), [this](const Waiting& w) { return w.bytes <= bytes_; });
+        if (found != queue_.rend()) ++passed_;
+        return found;
     }
 
     static void fan_out(const JobPtr& job, FanOut::output_ports_type& ports) {
@@ -153,36 +206,42 @@ private:
     }
 
     /// Hands the record on and frees its place.
-    int write(ModelJob& job) {
+    Release write(AdmittedJob& job) {
         taken(&job);
         const Handover scope(this);
+        const Release release{1, job.bytes, 1};
         const bool interrupted = job.interrupted();
         ModelRecord record = job.take();
         record.facts.peak_resident_bytes = peak_resident_bytes();
         record.facts.threads = report_.threads;
         if (interrupted) {
             ++report_.interrupted;
-            return 1;
+            return release;
         }
         ++(record.status == ModelStatus::kOk        ? report_.ok
            : record.status == ModelStatus::kWarning ? report_.warning
                                                     : report_.failed);
-        if (sink_failed_) return 1;
+        if (sink_failed_) return release;
         try {
             sink_(std::move(record));
         } catch (...) {
             sink_failure_ = std::current_exception();
             sink_failed_ = true;
         }
-        return 1;
+        return release;
     }
 
     std::span<const ModelTask> tasks_;
     const std::atomic<bool>* cancelled_;
+    double memory_;
+    const std::function<double(const ModelTask&)>& memory_of_;
+    double timeout_;
     const Loader& loader_;
     const Sink& sink_;
     RunReport& report_;
-    std::size_t next_ = 0;
+    std::vector<Waiting> queue_;
+    int places_ = 0, in_flight_ = 0, passed_ = 0, most_passed_ = 0;  // of the admission
+    double bytes_ = 0;
     std::exception_ptr sink_failure_;
     std::atomic<bool> sink_failed_{false};
     tbb::enumerable_thread_specific<EikonalWorkspace> workspaces_;
@@ -192,7 +251,7 @@ private:
     FanOut fan_out_;
     Solver eikonal_;
     StageNode trace_, characterize_;
-    flow::function_node<JobPtr, int> writer_;
+    flow::function_node<JobPtr, Release> writer_;
 };
 
 }  // namespace

@@ -16,6 +16,10 @@ struct ScheduleOptions {
     int threads = 0;                               ///< 0 = all cores this process may use
     int models_in_flight = 0;                      ///< models in memory at once; 0 = one more than twice the threads
     const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to stop the run
+    /// Bytes for the models in flight, by their estimates; 0 = no bound. A model that needs more runs alone.
+    double memory = 0;
+    std::function<double(const ModelTask&)> memory_of;  ///< estimated need of a model [bytes]; null = nothing
+    double model_timeout = 0;  ///< work on one model after which no further stage of it begins [s]; 0 = none
 };
 
 /// Takes a finished record, in the order of completion; called by one thread at a time. What it
@@ -31,8 +35,10 @@ struct RunReport {
     int threads = 1;
 };
 
-/// Computes all models on a oneTBB flow graph: a node per stage, a task per source, a bound on the
-/// models in flight, one serial writer. A model that fails is a record with its failure and harms no
+/// Computes all models on a oneTBB flow graph: a node per stage, a task per source, bounds on number and memory of
+/// the models in flight, one serial writer. Models are started in the order given (longest first makes the tail
+/// short), but while one waits for memory, smaller ones behind it may start, until it has been passed by as many as
+/// may be in flight. A model that fails is a record with its failure and harms no
 /// other. Results do not depend on the number of threads.
 /// @throws std::logic_error if a model got lost (a broken promise of ours), and what the sink throws
 RunReport run_models(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -152,6 +153,95 @@ TEST(RunModels, NoMoreModelsAreInFlightThanAllowed) {
         EXPECT_LE(most, allowed);
         EXPECT_EQ(inside, 0);
     }
+}
+
+/// Runs models of given needs within 10 bytes; returns ids in the order in which they were loaded.
+std::vector<std::string> run_within_budget(const std::vector<double>& needs, int threads, double& most,
+                                           bool& large_ones_alone) {
+    const std::vector<ModelTask> tasks = cohort(static_cast<int>(needs.size()));
+    const auto need = [&](const ModelTask& t) { return needs[std::stoul(t.identity.id.substr(4))]; };
+    std::mutex mutex;
+    std::multiset<double> inside;
+    std::vector<std::string> order;
+    most = 0;
+    large_ones_alone = true;
+    const auto look = [&] {
+        double sum = 0;
+        for (const double bytes : inside) sum += bytes;
+        if (inside.size() > 1) most = std::max(most, sum);
+        if (inside.size() > 1 && *inside.rbegin() > 10) large_ones_alone = false;
+    };
+    ScheduleOptions options;
+    options.threads = threads;
+    options.models_in_flight = 4;
+    options.memory = 10;
+    options.memory_of = need;
+    const Loader loader = [&](const ModelTask& t) {
+        const std::lock_guard lock(mutex);
+        inside.insert(need(t));
+        order.push_back(t.identity.id);
+        look();
+        return TriangleSoup{};  // fails in the next stage: what counts is who is inside
+    };
+    std::size_t stored = 0;
+    run_models(tasks, options, loader, [&](ModelRecord&& record) {
+        const std::lock_guard lock(mutex);
+        ++stored;
+        for (const ModelTask& t : tasks)
+            if (t.identity.id == record.identity.id) inside.erase(inside.find(need(t)));
+    });
+    EXPECT_EQ(stored, needs.size());
+    return order;
+}
+
+TEST(RunModels, EstimatedMemoryStaysWithinTheBudgetAndLargerModelsRunAlone) {
+    for (const int threads : {1, 4}) {
+        double most = 0;
+        bool large_ones_alone = false;
+        run_within_budget({12, 6, 5, 4, 4, 30, 3, 3, 2, 2, 1, 1, 1, 11, 0, 0}, threads, most, large_ones_alone);
+        EXPECT_LE(most, 10);
+        EXPECT_TRUE(large_ones_alone);
+    }
+}
+
+TEST(RunModels, AModelThatWaitsForMemoryIsPassedByFewSmallerOnes) {
+    // One byte is always in use by some small one, so the 10 would wait to the end if smaller ones passed for ever.
+    std::vector<double> needs(40, 1);
+    needs[1] = 10;
+    double most = 0;
+    bool large_ones_alone = false;
+    const std::vector<std::string> order = run_within_budget(needs, 1, most, large_ones_alone);
+    const auto at = std::find(order.begin(), order.end(), "tube1") - order.begin();
+    EXPECT_LE(at, 1 + 4) << "as many as may be in flight";
+}
+
+TEST(RunModels, ModelsStartInTheOrderGiven) {
+    std::vector<std::string> order;
+    ScheduleOptions options;
+    options.threads = 1;
+    options.models_in_flight = 1;
+    const Loader loader = [&](const ModelTask& t) {
+        order.push_back(t.identity.id);
+        return TriangleSoup{};
+    };
+    run_models(cohort(5), options, loader, [](ModelRecord&&) {});
+    EXPECT_EQ(order, (std::vector<std::string>{"tube0", "tube1", "tube2", "tube3", "tube4"}));
+}
+
+TEST(RunModels, ModelBeyondItsTimeFailsAtTheNextStageAndTheOthersComplete) {
+    const std::vector<ModelTask> tasks = cohort(3);
+    ScheduleOptions options;
+    options.threads = 2;
+    options.model_timeout = 100;
+    const Loader loader = [](const ModelTask& t) { return load_tube(t); };
+    run_models(tasks, options, loader, [](ModelRecord&& record) { EXPECT_NE(record.status, ModelStatus::kFailed); });
+    options.model_timeout = 1e-9;  // less than any load takes
+    run_models(tasks, options, loader, [](ModelRecord&& record) {
+        ASSERT_TRUE(record.failure);
+        EXPECT_EQ(record.failure->code, ErrorCode::kTimeout);
+        EXPECT_EQ(record.failure->stage, Stage::kCondition);
+        EXPECT_TRUE(is_transient(record.failure->code));
+    });
 }
 
 TEST(RunModels, TheSinkIsNeverEnteredTwiceAtOnce) {
