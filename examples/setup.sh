@@ -7,8 +7,8 @@ packages_build=(
     libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
     libtbb-dev libopenmesh-dev libhdf5-dev libssl-dev
     libyaml-cpp-dev libcli11-dev libfmt-dev
-    libpugixml-dev zlib1g-dev)
-packages_test=(libgtest-dev libbenchmark-dev nlohmann-json3-dev)
+    libpugixml-dev zlib1g-dev nlohmann-json3-dev)
+packages_test=(libgtest-dev libbenchmark-dev)
 
 wanted=()
 for group in "$@"; do

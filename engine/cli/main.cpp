@@ -8,7 +8,9 @@
 #include "engine/cli/browse.h"
 #include "engine/cli/phantom.h"
 #include "engine/cli/run.h"
+#include "engine/cli/status.h"
 #include "engine/core/version.h"
+#include "io/archive/lease.h"
 
 int main(int argc, char** argv) {
     using namespace lumenline;
@@ -21,6 +23,8 @@ int main(int argc, char** argv) {
         "Exit status: 0 all models ok or warning, 1 at least one failed, 2 usage or configuration error, 3 stopped.");
     std::function<int()> action;
     add_run(app, action);
+    add_status(app, action);
+    add_merge(app, action);
     add_validate(app, action);
     add_model(app, action);
     add_browse(app, action);
@@ -38,6 +42,9 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? kDone : kUsage;
     } catch (const ConfigError& error) {
         fmt::print(stderr, "{}\n", error.what());
+        return kUsage;
+    } catch (const LeaseHeld& held) {
+        fmt::print(stderr, "{}\n", held.what());
         return kUsage;
     } catch (const std::exception& error) {
         fmt::print(stderr, "lumenline: {}\n", error.what());

@@ -31,7 +31,9 @@ TriangleSoup load_task(const ModelTask& task) {
 
 std::string inputs_digest(const ModelTask& task, const std::string& source_sha256, bool float32_fields) {
     return sha256_hex("format=" + std::to_string(names::kFormatVersion) +
-                      "\nprecision=" + (float32_fields ? "float32" : "float64") + "\nsource=" + source_sha256 + "\n" +
+                      "\nprecision=" + (float32_fields ? "float32" : "float64") +
+                      "\nlength_unit=" + task.identity.length_unit +
+                      "\ncoordinate_system=" + task.identity.coordinate_system + "\nsource=" + source_sha256 + "\n" +
                       canonical_text(task));
 }
 
@@ -45,6 +47,8 @@ StopOnSignal::~StopOnSignal() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
 }
+
+void StopOnSignal::request() { stop_requested = true; }
 
 const std::atomic<bool>* StopOnSignal::flag() { return &stop_requested; }
 

@@ -13,8 +13,8 @@ namespace lumenline {
 /// @throws StageError as read_surface
 TriangleSoup load_task(const ModelTask& task);
 
-/// SHA-256 of everything that determines a model's file: the surface's bytes, scale, points, options,
-/// versions of the algorithms and of the format. Covariates, threads and times play no part.
+/// SHA-256 of everything that determines a model's file: the surface's bytes, scale, points, options, units and
+/// axes, versions of the algorithms and of the format. Covariates, threads and times play no part.
 std::string inputs_digest(const ModelTask& task, const std::string& source_sha256, bool float32_fields);
 
 /// While it lives, SIGINT and SIGTERM set a flag instead of ending the process; a second one ends it.
@@ -24,6 +24,8 @@ public:
     ~StopOnSignal();
     StopOnSignal(const StopOnSignal&) = delete;
     StopOnSignal& operator=(const StopOnSignal&) = delete;
+    /// Sets the flag, as a signal does.
+    static void request();
     [[nodiscard]] static const std::atomic<bool>* flag();
 };
 

@@ -4,18 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+
+#include "engine/cli/estimates.h"
 
 namespace lumenline {
 
 namespace {
-
-std::string duration_text(double seconds) {
-    const auto whole = static_cast<long>(std::ceil(seconds));
-    return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
-                         : fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
 
 /// Ids and sentences name files: what they hold is not to move the cursor.
 std::string printable(std::string text) {

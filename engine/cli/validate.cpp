@@ -10,11 +10,14 @@
 #include <ostream>
 
 #include "config/cohort.h"
+#include "engine/cli/estimates.h"
 #include "engine/cli/model_io.h"
+#include "engine/cli/plan.h"
 #include "engine/cli/run.h"
 #include "engine/cli/standard_output.h"
 #include "engine/core/text.h"
 #include "engine/schedule/model_job.h"
+#include "engine/schedule/run_models.h"
 #include "io/archive/utf8.h"
 
 namespace lumenline {
@@ -64,6 +67,7 @@ int validate(const std::string& cohort) {
         }
         out << fmt::format("\n{} ok, {} with warnings, {} failed\n", counts[ModelStatus::kOk],
                            counts[ModelStatus::kWarning], counts[ModelStatus::kFailed]);
+        out << "a run: " << estimate_text(config, select_tasks(config, {}), available_threads()) << '\n';
     });
     if (stopped) {
         fmt::print(stderr, "stopped\n");
@@ -79,7 +83,8 @@ void add_validate(CLI::App& app, std::function<int()>& action) {
     CLI::App* verb = app.add_subcommand("validate", "Check a cohort's configuration and surfaces, compute nothing");
     verb->add_option("COHORT", *cohort, "The cohort's YAML file (config/SCHEMA.md)")->required();
     verb->footer(
-        "Reads, repairs and closes every surface as a run would, and prints a line per model.\n"
+        "Reads, repairs and closes every surface as a run would, and prints a line per model, then what a run\n"
+        "may take: time, disk and memory.\n"
         "Exit status: 0 all models ok or warning, 1 at least one failed, 2 usage or configuration error, 3 stopped.");
     verb->callback([cohort, &action] { action = [cohort] { return validate(*cohort); }; });
 }

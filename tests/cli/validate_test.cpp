@@ -16,7 +16,7 @@ TEST(Validate, GoodCohortHasALinePerModelAndWritesNothing) {
     EXPECT_EQ(finished.status, 0) << finished.err;
     EXPECT_EQ(finished.err, "");
     const std::vector<std::string> lines = lines_of(finished.out);
-    ASSERT_EQ(lines.size(), 6U) << finished.out;
+    ASSERT_EQ(lines.size(), 7U) << finished.out;
     const char* const ids[] = {"tube", "bend", "coil", "narrow"};
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(lines[i].rfind(ids[i], 0), 0U) << lines[i];
@@ -24,6 +24,8 @@ TEST(Validate, GoodCohortHasALinePerModelAndWritesNothing) {
         EXPECT_NE(lines[i].find("2 openings"), std::string::npos) << lines[i];
     }
     EXPECT_EQ(lines[5], "4 ok, 0 with warnings, 0 failed");
+    for (const char* word : {"a run: about 0:", "thread", "MB on disk", "of memory"})
+        EXPECT_NE(lines[6].find(word), std::string::npos) << lines[6];
     EXPECT_FALSE(fs::exists(folder / "results"));
 }
 
@@ -33,7 +35,7 @@ TEST(Validate, BadSurfaceIsASentenceAndStatusOneAndTheOthersAreChecked) {
     const Finished finished = validate(folder);
     EXPECT_EQ(finished.status, 1) << finished.err;
     const std::vector<std::string> lines = lines_of(finished.out);
-    ASSERT_EQ(lines.size(), 6U) << finished.out;
+    ASSERT_EQ(lines.size(), 7U) << finished.out;
     EXPECT_NE(lines[1].find("bend    failed   "), std::string::npos) << lines[1];
     EXPECT_NE(lines[1].find("bend.ply, line 3:"), std::string::npos) << lines[1];
     EXPECT_EQ(lines[5], "3 ok, 0 with warnings, 1 failed");
