@@ -17,10 +17,10 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -133,13 +133,11 @@ double seconds_of(const timespec& time) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Now, by the clock that stamps the files of `folder`; NaN where nothing can be written there.
+/// Now, by the clock that stamps the files of `folder`; by this machine's where nothing can be written there.
 double file_system_now(const fs::path& folder) {
-    const fs::path probe = folder / ("clock." + host_name() + "." + std::to_string(::getpid()));
-    const Descriptor file(probe, O_WRONLY | O_CREAT | O_TRUNC);
+    const Descriptor file(folder / "clock", O_WRONLY | O_CREAT);
     struct stat status {};
     const bool known = file.get() >= 0 && ::futimens(file.get(), nullptr) == 0 && ::fstat(file.get(), &status) == 0;
-    if (file.get() >= 0) ::unlink(probe.c_str());
     return known ? seconds_of(status.st_mtim) : static_cast<double>(std::time(nullptr));
 }
 
@@ -189,7 +187,7 @@ Lease::Lease(const fs::path& archive_dir, Shard shard) : file_(lease_folder(arch
     const fs::path guard_file = lease_folder(archive_dir) / "guard";
     const Descriptor guard(guard_file, O_RDWR | O_CREAT);
     if (guard.get() < 0) refuse("cannot create", guard_file);
-    // Where a file system has no locks, making the file exclusively below still lets one run alone through.
+    // Where a file system has no locks, the link below still lets one run alone through.
     while (::flock(guard.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
     for (const LeaseHolder& holder : read_leases(archive_dir)) {
@@ -201,16 +199,20 @@ Lease::Lease(const fs::path& archive_dir, Shard shard) : file_(lease_folder(arch
             "the lease of " + holder_text(holder) + " has expired: that run is dead, and its models are taken over";
         ::unlink((lease_folder(archive_dir) / lease_name(holder.shard)).c_str());
     }
-    Descriptor made(file_, O_RDWR | O_CREAT | O_EXCL);
-    if (made.get() < 0 && errno == EEXIST) throw LeaseHeld("another run has just started on " + part_text(shard));
-    if (made.get() < 0) refuse("cannot create", file_);
+    // Written under another name and then linked: whoever is killed in between leaves no lease that names nobody.
+    fs::path draft = file_;
+    draft += ".new";
+    Descriptor made(draft, O_RDWR | O_CREAT | O_TRUNC);
+    if (made.get() < 0) refuse("cannot create", draft);
     const std::string text = own_text();
-    if (::write(made.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-        const int error = errno;
-        ::unlink(file_.c_str());
-        errno = error;
-        refuse("cannot write", file_);
-    }
+    if (::write(made.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+        refuse("cannot write", draft);
+    const bool linked = ::link(draft.c_str(), file_.c_str()) == 0;
+    if (!linked && errno == EEXIST) throw LeaseHeld("another run has just started on " + part_text(shard));
+    if (linked)
+        ::unlink(draft.c_str());
+    else if (::rename(draft.c_str(), file_.c_str()) != 0)  // a file system without links
+        refuse("cannot create", file_);
     descriptor_ = made.take();
 }
 

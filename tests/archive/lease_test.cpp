@@ -126,6 +126,17 @@ TEST(Lease, HolderNoticesThatItsLeaseWasTakenAway) {
     EXPECT_TRUE(other.beat()) << "the loser leaves the other's lease alone";
 }
 
+TEST(Lease, LeaseNamesItsHolderFromTheMomentItStands) {
+    const fs::path archive = fresh_archive();
+    // What one leaves that was killed before it had a lease.
+    fs::create_directories(archive / "runs");
+    std::ofstream(archive / "runs" / "1-of-1.lease.new") << "host=";
+    EXPECT_TRUE(read_leases(archive).empty());
+    const Lease lease(archive, {});
+    EXPECT_EQ(read_leases(archive).at(0).process, ::getpid());
+    EXPECT_FALSE(fs::exists(archive / "runs" / "1-of-1.lease.new"));
+}
+
 TEST(Lease, BeatRenewsTheSignOfLife) {
     const fs::path archive = fresh_archive();
     Lease lease(archive, {});
