@@ -134,6 +134,34 @@ TEST(Resume, FailuresStandUntilTheyAreRetriedOrTheirInputsChange) {
     EXPECT_NE(get_attribute(folder, "results", "bend", "status"), "failed");
 }
 
+TEST(Resume, WhatLackedTimeIsTriedAgainByTheNextRun) {
+    const fs::path folder = small_cohort();
+    const std::string plain = read_text(folder / "cohort.yaml");
+    write_text(folder / "cohort.yaml", "run: {model_timeout: 0.000001 s}\n" + plain);
+    ASSERT_EQ(run_cohort(folder).status, 1);
+    EXPECT_EQ(get_attribute(folder, "results", "tube", "failure_code"), "timeout");
+    EXPECT_NE(get_attribute(folder, "results", "tube", "failure_sentence").find("run.model_timeout"),
+              std::string::npos);
+    EXPECT_NE(run_cohort(folder, {"--dry-run"}).out.find("4 would run"), std::string::npos);
+    write_text(folder / "cohort.yaml", plain);
+    EXPECT_EQ(rerun(folder), kAll);
+}
+
+TEST(Resume, LittleMemoryChangesNothingButTheOrder) {
+    const fs::path folder = small_cohort();
+    ASSERT_EQ(run_cohort(folder).status, 0);
+    fs::rename(folder / "results", folder / "whole");
+    write_text(folder / "cohort.yaml", "run: {memory: 1 MB}\n" + read_text(folder / "cohort.yaml"));
+    ASSERT_EQ(run_cohort(folder).status, 0) << "every model is larger than that and runs alone";
+    for (const std::string& id : kAll)
+        EXPECT_EQ(differences(hdf_contents(folder / "whole/models" / (id + ".hdf")),
+                              hdf_contents(folder / "results/models" / (id + ".hdf"))),
+                  Ids{});
+    fs::remove_all(folder / "results");
+    fs::rename(folder / "whole", folder / "results");
+    EXPECT_EQ(rerun(folder), Ids{}) << "limits determine no result";
+}
+
 TEST(Resume, DryRunSaysWhatWouldRunAndWhyAndWritesNothing) {
     const fs::path folder = small_cohort();
     const Finished fresh = run_cohort(folder, {"--dry-run"});
