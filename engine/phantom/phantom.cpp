@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
+#include "engine/phantom/mesh_soup.h"
 #include "engine/phantom/random.h"
 #include "engine/phantom/section.h"
 
@@ -279,17 +280,20 @@ Phantom make_phantom(const PhantomOptions& options) {
     return phantom;
 }
 
-TriangleSoup to_soup(const Phantom& phantom) {
+TriangleSoup mesh_soup(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                       double relative_rounding) {
     TriangleSoup soup;
-    soup.points = phantom.points;
-    soup.triangles = phantom.triangles;
+    soup.points = points;
+    soup.triangles = triangles;
     soup.source_file = "phantom";
     double largest = 0;
-    for (const Vec3& p : phantom.points) {
-        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    }
-    soup.coordinate_rounding = (phantom.float32 ? 0x1p-24 : 0x1p-53) * largest;
+    for (const Vec3& p : points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    soup.coordinate_rounding = relative_rounding * largest;
     return soup;
+}
+
+TriangleSoup to_soup(const Phantom& phantom) {
+    return mesh_soup(phantom.points, phantom.triangles, phantom.float32 ? 0x1p-24 : 0x1p-53);
 }
 
 }  // namespace lumenline

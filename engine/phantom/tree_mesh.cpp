@@ -21,6 +21,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "engine/phantom/mesh_soup.h"
+
 namespace lumenline {
 namespace {
 
@@ -219,15 +221,6 @@ TreePhantom make_tree(const TreeOptions& options) {
     return tree;
 }
 
-TriangleSoup to_soup(const TreePhantom& tree) {
-    TriangleSoup soup;
-    soup.points = tree.points;
-    soup.triangles = tree.triangles;
-    soup.source_file = "phantom";
-    double largest = 0;
-    for (const Vec3& p : tree.points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    soup.coordinate_rounding = 0x1p-53 * largest;
-    return soup;
-}
+TriangleSoup to_soup(const TreePhantom& tree) { return mesh_soup(tree.points, tree.triangles, 0x1p-53); }
 
 }  // namespace lumenline

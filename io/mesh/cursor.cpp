@@ -147,37 +147,33 @@ void Cursor::expect(std::string_view lower) {
     position_ += found.size();
 }
 
-double Cursor::coordinate() {
+Cursor::Decimal Cursor::decimal(std::string_view noun) {
     skip();
     const char* begin = file_.bytes.data() + position_;
     const char* end = file_.bytes.data() + file_.bytes.size();
     double value = 0;
     const auto [stop, error] = std::from_chars(skip_plus(begin, end), end, value);
-    if (error == std::errc::invalid_argument || (stop != end && !ends_token(*stop))) {
-        fail_expected(position_, "a coordinate");
+    if (error == std::errc::invalid_argument || (stop != end && !ends_token(*stop))) fail_expected(position_, noun);
+    return {{begin, static_cast<std::size_t>(stop - begin)},
+            error == std::errc{} ? value : std::numeric_limits<double>::quiet_NaN()};
+}
+
+double Cursor::coordinate() {
+    const auto [text, value] = decimal("a coordinate");
+    if (!std::isfinite(value)) {
+        fail_at(file_, position_, ErrorCode::kBadCoordinate, "expected a finite coordinate, found " + in_quotes(text));
     }
-    if (error != std::errc{} || !std::isfinite(value)) {
-        fail_at(file_, position_, ErrorCode::kBadCoordinate,
-                "expected a finite coordinate, found " + in_quotes({begin, static_cast<std::size_t>(stop - begin)}));
+    if (digits_<kMaxDigits&& static_cast<int>(text.size())> digits_) {
+        digits_ = std::max(digits_, std::min(significant_digits(text.data(), text.data() + text.size()), kMaxDigits));
     }
-    if (digits_ < kMaxDigits && stop - begin > digits_) {
-        digits_ = std::max(digits_, std::min(significant_digits(begin, stop), kMaxDigits));
-    }
-    position_ += static_cast<std::size_t>(stop - begin);
+    position_ += text.size();
     return value;
 }
 
 double Cursor::number() {
-    skip();
-    const char* begin = file_.bytes.data() + position_;
-    const char* end = file_.bytes.data() + file_.bytes.size();
-    double value = 0;
-    const auto [stop, error] = std::from_chars(skip_plus(begin, end), end, value);
-    if (error == std::errc::invalid_argument || (stop != end && !ends_token(*stop))) {
-        fail_expected(position_, "a number");
-    }
-    position_ += static_cast<std::size_t>(stop - begin);
-    return error == std::errc{} ? value : std::numeric_limits<double>::quiet_NaN();
+    const auto [text, value] = decimal("a number");
+    position_ += text.size();
+    return value;
 }
 
 std::optional<std::int64_t> Cursor::integer_prefix() {

@@ -94,6 +94,12 @@ public:
     [[noreturn]] void fail_expected(std::size_t position, std::string_view what) const;
 
 private:
+    /// A decimal number as it stands at the position, which stays; NaN beyond double precision.
+    struct Decimal {
+        std::string_view text;
+        double value = 0;
+    };
+    Decimal decimal(std::string_view noun);
     void skip();
     [[nodiscard]] bool ends_token(char c) const;
     [[nodiscard]] std::size_t token_end(std::size_t position) const;
