@@ -43,6 +43,40 @@ struct Corners {
     Vec3 normal;  ///< unit; zero without area
 };
 
+/// Leaves of a tree whose boxes are within a distance of a point, which may shrink on the way; of two children the
+/// nearer comes first.
+class NearestFirst {
+public:
+    NearestFirst(const std::vector<Node>& nodes, Vec3 p) : nodes_(nodes), p_(p) { push(0); }
+
+    /// @returns null when no leaf is left
+    const Node* next(double within2) {
+        while (height_ > 0) {
+            const Entry entry = stack_[--height_];
+            if (entry.distance2 >= within2) continue;
+            const Node& node = nodes_[entry.node];
+            if (node.count > 0) return &node;
+            push(node.first);
+            push(node.first + 1);
+            if (stack_[height_ - 2].distance2 < stack_[height_ - 1].distance2)
+                std::swap(stack_[height_ - 2], stack_[height_ - 1]);
+        }
+        return nullptr;
+    }
+
+private:
+    struct Entry {
+        std::uint32_t node;
+        double distance2;
+    };
+    void push(std::uint32_t node) { stack_[height_++] = {node, nodes_[node].box.squared_distance(p_)}; }
+
+    const std::vector<Node>& nodes_;
+    Vec3 p_;
+    std::array<Entry, 128> stack_;  // two a level; medians keep the depth below 32
+    std::size_t height_ = 0;
+};
+
 /// Nearest point of a triangle, by the region of its plane that the point projects into (Ericson,
 /// Real-Time Collision Detection, 2005, section 5.1.5).
 Vec3 nearest_point(Vec3 p, const Corners& t) {
@@ -163,18 +197,9 @@ SurfaceDistance::~SurfaceDistance() = default;
 SurfaceDistance::Nearest SurfaceDistance::nearest(Vec3 p, Vec3 hint, TriangleId hint_triangle) const {
     Nearest best{0, hint, hint_triangle};
     double best2 = squared_norm(p - hint);
-    struct Entry {
-        std::uint32_t node;
-        double distance2;
-    };
-    std::array<Entry, 128> stack;  // two a level; medians keep the depth below 32
-    std::size_t height = 0;
-    stack[height++] = {0, tree_->nodes[0].box.squared_distance(p)};
-    while (height > 0) {
-        const Entry entry = stack[--height];
-        if (entry.distance2 >= best2) continue;
-        const Node& node = tree_->nodes[entry.node];
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    NearestFirst pending(tree_->nodes, p);
+    while (const Node* node = pending.next(best2))
+        for (std::uint32_t i = node->first; i < node->first + node->count; ++i) {
             const Corners& t = tree_->corners[i];
             const double height = dot(p - t.a, t.normal);
             if (height * height >= best2) continue;
@@ -185,33 +210,18 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(Vec3 p, Vec3 hint, TriangleId 
                 best.triangle = TriangleId(std::size_t{tree_->items[i].triangle});
             }
         }
-        if (node.count > 0) continue;
-        Entry left{node.first, tree_->nodes[node.first].box.squared_distance(p)};
-        Entry right{node.first + 1, tree_->nodes[node.first + 1].box.squared_distance(p)};
-        if (left.distance2 < right.distance2) std::swap(left, right);
-        stack[height++] = left;  // the farther one waits
-        stack[height++] = right;
-    }
     best.distance = std::sqrt(best2);
     return best;
 }
 
 double SurfaceDistance::nearest_vertex(Vec3 p, double within) const {
     double best2 = within * within;
-    std::array<std::uint32_t, 128> stack;
-    std::size_t height = 0;
-    stack[height++] = 0;
-    while (height > 0) {
-        const Node& node = tree_->nodes[stack[--height]];
-        if (node.box.squared_distance(p) >= best2) continue;
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    NearestFirst pending(tree_->nodes, p);
+    while (const Node* node = pending.next(best2))
+        for (std::uint32_t i = node->first; i < node->first + node->count; ++i) {
             const Corners& t = tree_->corners[i];
             best2 = std::min({best2, squared_norm(p - t.a), squared_norm(p - t.b), squared_norm(p - t.c)});
         }
-        if (node.count > 0) continue;
-        stack[height++] = node.first;
-        stack[height++] = node.first + 1;
-    }
     return std::sqrt(best2);
 }
 

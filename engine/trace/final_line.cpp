@@ -82,8 +82,7 @@ std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from,
         final.line.radius[i] = radius(s);
         final.radius_error.push_back(radius_error(s));
         final.position_error.push_back(position_error(s));
-        checked.radius[i] =
-            verifier.surface_distance().nearest_vertex(final.line.points[i], std::numeric_limits<double>::infinity());
+        checked.radius[i] = verifier.empty_ball_radius(final.line.points[i]);
     }
     final.ball_radius = checked.radius;
     LineCheck check = verifier.check(checked);

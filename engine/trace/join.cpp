@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace lumenline {
@@ -48,7 +47,7 @@ std::optional<FinalLine> join_centres(const FinalLine& axis, const Endpoint& fro
         x += shift;
         double ball = axis.ball_radius[i], radius = old.radius[i];
         if (between || start.holds(s) || end.holds(s)) {
-            ball = verifier.surface_distance().nearest_vertex(x, std::numeric_limits<double>::infinity());
+            ball = verifier.empty_ball_radius(x);
             radius = refiner != nullptr ? refiner->radius_at(x, tangent, ball) : ball;
         }
         abscissa.push_back(s);

@@ -50,13 +50,6 @@ std::string describe(const Endpoints& endpoints, std::size_t i) {
     return std::string(role_name(e.role)) + " " + std::to_string(i) + " at " + short_text(e.point);
 }
 
-/// Radius of the largest ball around x that holds no site.
-double empty_ball_radius(const Surface& surface, Vec3 x) {
-    double least2 = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : surface.points) least2 = std::min(least2, squared_norm(p - x));
-    return std::sqrt(least2);
-}
-
 class Collector {
 public:
     Collector(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
@@ -190,8 +183,8 @@ private:
         if (from.cut) line.cut_front = cut_at_plane(line.cut, from.point, from.normal, true);
         if (to.cut) cut_at_plane(line.cut, to.point, to.normal, false);
         if (line.cut.size() >= 2) {  // the points at the planes lie between points that need not share a polygon
-            line.cut.radius.front() = empty_ball_radius(verifier_.surface(), line.cut.points.front());
-            line.cut.radius.back() = empty_ball_radius(verifier_.surface(), line.cut.points.back());
+            line.cut.radius.front() = verifier_.empty_ball_radius(line.cut.points.front());
+            line.cut.radius.back() = verifier_.empty_ball_radius(line.cut.points.back());
         }
         line.check = verifier_.check(line.cut);
         return line;

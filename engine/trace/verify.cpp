@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/geometry/inside_test.h"
 
@@ -22,12 +23,20 @@ bool LineVerifier::inside(Vec3 x, double clearance) {
     return true;
 }
 
-SurfaceDistance::Nearest LineVerifier::nearest(Vec3 x, SurfaceDistance::Nearest& last) const {
-    return last = distance_.nearest(x, last.point, last.triangle);
+SurfaceDistance::Nearest LineVerifier::nearest(Vec3 x, SurfaceDistance::Nearest& last) {
+    const auto [entry, is_new] = walls_.try_emplace(x);
+    if (is_new) entry->second = distance_.nearest(x, last.point, last.triangle);
+    return last = entry->second;
+}
+
+double LineVerifier::empty_ball_radius(Vec3 x) {
+    const auto [entry, is_new] = balls_.try_emplace(x);
+    if (is_new) entry->second = distance_.nearest_vertex(x, std::numeric_limits<double>::infinity());
+    return entry->second;
 }
 
 bool LineVerifier::segment_inside(Vec3 a, Vec3 b, double clearance_a, double clearance_b, int depth,
-                                  SurfaceDistance::Nearest& last) const {
+                                  SurfaceDistance::Nearest& last) {
     if (distance(a, b) < clearance_a + clearance_b) return true;
     if (depth == 0) return false;
     const Vec3 middle = lerp(a, b, 0.5);
