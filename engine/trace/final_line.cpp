@@ -12,9 +12,10 @@ namespace lumenline {
 
 namespace {
 
-constexpr double kCostRounding = 1e-6;  // of the cost: what its sampling at other nodes may change
-constexpr double kMeetingGap = 0.1;     // of the ball radius: between the ends of a loop's two refined sides
-constexpr double kStray = 1.0;          // of the path's ball radius
+// Of the cost: what its sampling at other nodes may change, and the part of the wall's noise that nodes rest within.
+constexpr double kCostRounding = 1e-6, kCostNoise = 0.02;
+constexpr double kMeetingGap = 0.1;  // of the ball radius: between the ends of a loop's two refined sides
+constexpr double kStray = 1.0;       // of the path's ball radius
 
 }  // namespace
 
@@ -52,7 +53,7 @@ std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from,
         why = "not be found, for want of length or of a step that improves it";
         return std::nullopt;
     }
-    if (!(refined.cost_after <= refined.cost_before * (1 + kCostRounding))) {
+    if (!(refined.cost_after <= refined.cost_before * (1 + kCostRounding + kCostNoise * refined.noise))) {
         why = "be farther from the axis by its own measure";
         return std::nullopt;
     }

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "engine/geometry/segment_cost.h"
 
@@ -252,17 +253,22 @@ void MedialRefiner::set_bounds(bool all, std::size_t shared) {
     }
 }
 
+double MedialRefiner::radius_known(std::size_t i, Vec3 x, std::size_t shared) const {
+    double least = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const SurfaceFoot& f) { least = std::min(least, distance(x, f.point)); };
+    for (std::size_t j = i < shared ? 0 : i - shared; j <= std::min(i + shared, nodes_.size() - 1); ++j) {
+        for (const Contact& c : nodes_[j].around) offer(c.foot);
+        for (const SurfaceFoot& f : nodes_[j].own) offer(f);
+    }
+    for (const SurfaceFoot& f : nodes_[i].before) offer(f);
+    return least;
+}
+
 void MedialRefiner::set_bounds(std::size_t i, std::size_t shared) {
     Node& node = nodes_[i];
     RidgeNode& ridge = problem_.nodes[i];
     const std::size_t first = i < shared ? 0 : i - shared, last = std::min(i + shared, nodes_.size() - 1);
-    double least = std::numeric_limits<double>::infinity();
-    const auto offer = [&](const SurfaceFoot& f) { least = std::min(least, distance(ridge.position, f.point)); };
-    for (std::size_t j = first; j <= last; ++j) {
-        for (const Contact& c : nodes_[j].around) offer(c.foot);
-        for (const SurfaceFoot& f : nodes_[j].own) offer(f);
-    }
-    for (const SurfaceFoot& f : node.before) offer(f);
+    const double least = radius_known(i, ridge.position, shared);
     node.radius = ridge.radius = least;
     ridge.reach = node.frozen ? 0 : node.reach;
     ridge.first = static_cast<std::uint32_t>(problem_.bounds.size());
@@ -296,11 +302,20 @@ double MedialRefiner::move_nodes() {
     return largest;
 }
 
-double MedialRefiner::cost() const {
+double MedialRefiner::cost(bool at_start) const {
+    const auto node_at = [&](std::size_t i) {
+        const bool moved_since = at_start && !nodes_[i].frozen;
+        const Vec3 x = moved_since ? nodes_[i].start : problem_.nodes[i].position;
+        return std::pair(x, moved_since ? radius_known(i, x, kShared) : nodes_[i].radius);
+    };
     double sum = 0;
-    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i)
-        sum += segment_cost(distance(problem_.nodes[i].position, problem_.nodes[i + 1].position),
-                            nodes_[i].radius + nodes_[i + 1].radius);
+    auto [from, radius] = node_at(0);
+    for (std::size_t i = 1; i < nodes_.size(); ++i) {
+        const auto [to, next] = node_at(i);
+        sum += segment_cost(distance(from, to), radius + next);
+        from = to;
+        radius = next;
+    }
     return sum;
 }
 
@@ -315,17 +330,17 @@ RefinedLine MedialRefiner::refine(const Polyline& path, const LineEnd& start, co
         find_places(round);
         set_bounds(false, round < kSearchRounds ? 0 : kShared);
         if (round == 0) {
-            result.cost_before = cost();
-            const double noise = noise_level();
-            accuracy_ = std::clamp(kAccuracyShare * noise, kAccuracy, kRoughAccuracy);
-            rest_ = std::max(kRestShare * noise, kRest);
+            result.noise = noise_level();
+            accuracy_ = std::clamp(kAccuracyShare * result.noise, kAccuracy, kRoughAccuracy);
+            rest_ = std::max(kRestShare * result.noise, kRest);
         }
         if (!solve_ridge(problem_, round == 0 ? kRoughAccuracy : accuracy_)) break;
         if (move_nodes() < rest_) break;
     }
     find_places(kRounds);
     set_bounds(true, kShared);
-    result.cost_after = cost();
+    result.cost_before = cost(true);
+    result.cost_after = cost(false);
     estimate_errors();
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         result.largest_stray = std::max(result.largest_stray,

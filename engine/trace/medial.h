@@ -17,7 +17,8 @@ struct RefinedLine {
     std::vector<double> radius_error;        ///< per point: estimated error of the radius [length]
     std::vector<double> position_error;      ///< per point: estimated distance from the true line [length]
     double cost_before = 0, cost_after = 0;  ///< of path and line, by distances to the curved surface
-    double largest_stray = 0;                ///< largest distance of a node from where it started, in radii there
+    double noise = 0;          ///< how far the wall is expected to be off, in radii: median over the nodes
+    double largest_stray = 0;  ///< largest distance of a node from where it started, in radii there
 };
 
 /// An end of a path to be refined.
@@ -79,6 +80,8 @@ private:
         double offset2 = 0;     ///< squares of the sites' heights above where their neighbours would put them
         double product = 0;     ///< of the heights of sites that share an edge
         double edge2 = 0;       ///< squares of edges
+        double mean2 = 0;       ///< squares of the mean height around the section
+        double first2 = 0;      ///< squares of the amplitude of the height's first harmonic around the section
         double anisotropy = 0;  ///< 1 - (b / a)^2 of the section's conic, 0 where it is round
 
         void add(const Section& other, double factor);
@@ -106,7 +109,10 @@ private:
     [[nodiscard]] double noise_level() const;
     [[nodiscard]] Section section(std::size_t node);
     void set_errors(Node& node, const Section& mean) const;
-    [[nodiscard]] double cost() const;
+    /// Distance from x, near the node, to the nearest of the places known.
+    [[nodiscard]] double radius_known(std::size_t node, Vec3 x, std::size_t shared) const;
+    /// Of the line through the nodes, or through where they started, both by the places known now.
+    [[nodiscard]] double cost(bool at_start) const;
     void fill_in(std::size_t node);
     void append(const RidgeNode& ridge, const Node& node, const Node* next, RefinedLine& result) const;
 
