@@ -155,7 +155,7 @@ struct Columns {
     std::vector<std::size_t> covariates;
 };
 
-Columns sort_columns(const TextTable& table, std::size_t header_line) {
+Columns sort_columns(const DelimitedTable& table, std::size_t header_line) {
     Columns columns;
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const std::string& name = table.columns[i];
@@ -179,7 +179,7 @@ Columns sort_columns(const TextTable& table, std::size_t header_line) {
     return columns;
 }
 
-ModelTask read_row(const TextTable& table, const TextTable::Row& row, const Columns& columns,
+ModelTask read_row(const DelimitedTable& table, const DelimitedTable::Row& row, const Columns& columns,
                    const ModelTask& prototype, const std::filesystem::path& folder) {
     // The cell of a field as a place and a text; empty when missing.
     auto cell = [&](std::string_view field) -> std::pair<Place, std::string_view> {
@@ -221,10 +221,10 @@ ModelTask read_row(const TextTable& table, const TextTable::Row& row, const Colu
 
 void read_table_models(const std::filesystem::path& file, const Place& asked_by, const ModelTask& prototype,
                        const std::filesystem::path& folder, ModelCollector& collector) {
-    const TextTable table = read_table(file, asked_by);
+    const DelimitedTable table = read_table(file, asked_by);
     const Columns columns = sort_columns(table, table.header_line);
     const std::string id_column = fmt::format("column '{}'", table.columns[columns.fields.at("id")]);
-    for (const TextTable::Row& row : table.rows) {
+    for (const DelimitedTable::Row& row : table.rows) {
         collector.add(read_row(table, row, columns, prototype, folder), {file, row.line, id_column},
                       fmt::format("in line {}", row.line));
     }

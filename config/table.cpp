@@ -58,7 +58,7 @@ std::vector<std::string> split(const Place& line, std::string_view rest, char se
     return cells;
 }
 
-void check_header(const TextTable& table) {
+void check_header(const DelimitedTable& table) {
     const std::size_t line = table.header_line;
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const std::string& name = table.columns[i];
@@ -74,14 +74,14 @@ void check_header(const TextTable& table) {
 
 }  // namespace
 
-TextTable read_table(const std::filesystem::path& file, const Place& asked_by) {
+DelimitedTable read_table(const std::filesystem::path& file, const Place& asked_by) {
     const std::string extension = lower_case(file.extension().string());
     if (extension != ".tsv" && extension != ".csv")
         fail(asked_by, fmt::format("must name a .tsv or .csv file, not {}", path_in_quotes(file)));
     const char separator = extension == ".csv" ? ',' : '\t';
     const std::string text = read_text_file(file, asked_by).text;
 
-    TextTable table;
+    DelimitedTable table;
     table.file = file;
     std::string_view rest = text;
     for (std::size_t number = 1; !rest.empty(); ++number) {

@@ -10,7 +10,7 @@
 namespace lumenline {
 
 /// A table of text: header and rows of equal length.
-struct TextTable {
+struct DelimitedTable {
     struct Row {
         std::size_t line = 0;  ///< in the file, 1-based
         std::vector<std::string> cells;
@@ -28,6 +28,6 @@ struct TextTable {
 /// lines; other cells lose the blanks at their ends. Lines that are entirely blank are passed over.
 /// @param asked_by  where the table is named: the place of the error when it cannot be read
 /// @throws ConfigError with the table's file and line
-TextTable read_table(const std::filesystem::path& file, const Place& asked_by);
+DelimitedTable read_table(const std::filesystem::path& file, const Place& asked_by);
 
 }  // namespace lumenline
