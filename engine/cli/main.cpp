@@ -8,6 +8,7 @@
 #include "engine/cli/browse.h"
 #include "engine/cli/phantom.h"
 #include "engine/cli/run.h"
+#include "engine/cli/stats.h"
 #include "engine/cli/status.h"
 #include "engine/core/version.h"
 #include "io/archive/lease.h"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
     add_validate(app, action);
     add_model(app, action);
     add_browse(app, action);
+    add_stats(app, action);
     add_phantom(app, action);
     try {
         app.parse(argc, argv);

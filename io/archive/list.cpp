@@ -32,8 +32,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// The index of `archive`, or the archive itself if it is a file.
-std::filesystem::path file_of(const std::filesystem::path& archive) {
+std::vector<std::string> ids_of(const ArchiveFile& file) {
+    if (file.format() == names::kCohortFormat) return file.strings(names::kId.path);
+    return {file.attribute("/", "id").value_or("")};
+}
+
+}  // namespace
+
+std::filesystem::path index_or_file(const std::filesystem::path& archive) {
     std::error_code error;
     if (!std::filesystem::exists(archive, error)) throw UnknownName("there is no archive '" + archive.string() + "'");
     if (!std::filesystem::is_directory(archive, error)) return archive;
@@ -43,13 +49,6 @@ std::filesystem::path file_of(const std::filesystem::path& archive) {
                           ": it is no archive, or its run has not ended: run it again to make the index");
     return index;
 }
-
-std::vector<std::string> ids_of(const ArchiveFile& file) {
-    if (file.format() == names::kCohortFormat) return file.strings(names::kId.path);
-    return {file.attribute("/", "id").value_or("")};
-}
-
-}  // namespace
 
 std::string nearest_names(std::string_view wanted, std::span<const std::string> names) {
     std::vector<std::pair<std::size_t, std::string_view>> ranked;
@@ -64,13 +63,13 @@ std::string nearest_names(std::string_view wanted, std::span<const std::string> 
 }
 
 std::vector<ModelSummary> list_models(const std::filesystem::path& archive) {
-    const std::filesystem::path path = file_of(archive);
+    const std::filesystem::path path = index_or_file(archive);
     if (ArchiveFile(path).format() == names::kCohortFormat) return read_index(path);
     return {read_summary(path)};
 }
 
 std::filesystem::path find_model(const std::filesystem::path& archive, const std::string& id) {
-    const ArchiveFile file(file_of(archive));
+    const ArchiveFile file(index_or_file(archive));
     const std::vector<std::string> ids = ids_of(file);
     if (std::find(ids.begin(), ids.end(), id) == ids.end())
         throw UnknownName("the archive '" + archive.string() + "' has no model '" + printable(id) + "'" +

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/data_table.h"
 #include "engine/core/model_record.h"
 #include "io/archive/errors.h"
 
@@ -70,10 +71,19 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// The index of an archive that is a directory; the archive itself if it is a file.
+/// @throws UnknownName if there is neither
+std::filesystem::path index_or_file(const std::filesystem::path& archive);
+
 /// The models of an archive: rows of the index of a directory (or of its cohort.h5), or the one
 /// model of a model file.
 /// @throws ArchiveError, UnknownName if the archive does not exist or a directory has no index
 std::vector<ModelSummary> list_models(const std::filesystem::path& archive);
+
+/// A table of an archive's index. Columns of the table of models that another table lacks are joined by the models'
+/// ids. Measures are the columns of floating point numbers that are no covariates.
+/// @throws ArchiveError; UnknownName with the nearest names if there is no such table
+DataTable read_data_table(const std::filesystem::path& archive, const std::string& table);
 
 /// File of the model `id` of an archive.
 /// @throws ArchiveError; UnknownName with the nearest ids if the archive has no such model

@@ -87,11 +87,12 @@ const std::set<std::string>* visible_from(const std::string& room) {
     }();
     static const std::set<std::string> cli = [] {
         std::set<std::string> rooms = schedule;
-        rooms.insert({"engine/geometry", "engine/phantom", "engine/schedule", "io/mesh", "io/archive", "config"});
+        rooms.insert({"engine/geometry", "engine/phantom", "engine/population", "engine/schedule", "io/mesh",
+                      "io/archive", "config"});
         return rooms;
     }();
     if (room == "engine/core") return &nothing;
-    if (room == "engine/geometry" || room == "config") return &core;
+    if (room == "engine/geometry" || room == "engine/population" || room == "config") return &core;
     if (room == "engine/phantom" || stages().contains(room)) return &kernels;
     if (room == "engine/schedule") return &schedule;
     if (room == "engine/cli") return &cli;

@@ -60,8 +60,15 @@ TEST(IncludeRules, ScheduleSeesStagesButNeitherIoNorConfigNorCli) {
     EXPECT_REFUSED("engine/schedule/a.cpp", "\"engine/cli/run.h\"");
 }
 
+TEST(IncludeRules, PopulationSeesTablesAlone) {
+    EXPECT_ALLOWED("engine/population/a.cpp", "\"engine/core/data_table.h\"");
+    for (const char* room : {"engine/geometry", "engine/trace", "io/archive", "config"})
+        EXPECT_REFUSED("engine/population/a.cpp", "\"" + std::string(room) + "/a.h\"");
+}
+
 TEST(IncludeRules, CliSeesEverything) {
-    for (const char* room : {"engine/schedule", "engine/phantom", "engine/trace", "io/archive", "io/mesh", "config"})
+    for (const char* room :
+         {"engine/schedule", "engine/phantom", "engine/population", "engine/trace", "io/archive", "io/mesh", "config"})
         EXPECT_ALLOWED("engine/cli/a.cpp", "\"" + std::string(room) + "/a.h\"");
 }
 

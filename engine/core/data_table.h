@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace lumenline {
+
+/// A column of a table: one value per row.
+struct DataColumn {
+    std::string name, units, description;
+    bool is_measure = false;  ///< holds quantities, not counts, indices or names
+    std::variant<std::vector<double>, std::vector<std::string>> values;  ///< NaN and empty text = no value
+
+    [[nodiscard]] bool is_number() const { return values.index() == 0; }
+    [[nodiscard]] const std::vector<double>& numbers() const { return std::get<0>(values); }
+    [[nodiscard]] const std::vector<std::string>& texts() const { return std::get<1>(values); }
+};
+
+/// A table of an archive's index: columns of equal length.
+struct DataTable {
+    std::string name;
+    std::size_t rows = 0;
+    std::vector<DataColumn> columns;
+
+    /// @returns null if there is no such column
+    [[nodiscard]] const DataColumn* find(std::string_view column) const {
+        for (const DataColumn& c : columns)
+            if (c.name == column) return &c;
+        return nullptr;
+    }
+};
+
+}  // namespace lumenline
