@@ -85,8 +85,12 @@ PipelineOptions read_options(const MapReader& top) {
     return options;
 }
 
-void read_limits(const MapReader& run, RunOptions& options) {
+double bytes_of(const Quantity& size) {
     constexpr double kByteStep = 1000;
+    return size.number * std::pow(kByteStep, size.unit == "MB" ? 2 : size.unit == "GB" ? 3 : 4);
+}
+
+void read_limits(const MapReader& run, RunOptions& options) {
     static constexpr std::array<std::string_view, 4> kSizes{"%", "MB", "GB", "TB"};
     if (const auto memory = run.quantity_or_word("memory", kSizes)) {
         const YamlEntry& entry = *run.find("memory");
@@ -94,10 +98,12 @@ void read_limits(const MapReader& run, RunOptions& options) {
         if (memory->unit == "%")
             options.memory_percent = memory->number;
         else
-            options.memory_bytes = memory->number * std::pow(kByteStep, memory->unit == "MB"   ? 2
-                                                                        : memory->unit == "GB" ? 3
-                                                                                               : 4);
+            options.memory_bytes = bytes_of(*memory);
     }
+    static constexpr std::array<std::string_view, 3> kBytes{"MB", "GB", "TB"};
+    if (const auto memory = run.quantity_or_word("model_memory", kBytes)) options.model_memory = bytes_of(*memory);
+    options.isolation = enumerated(run.choice("isolation"), options.isolation,
+                                   std::array{Isolation::kNone, Isolation::kProcess}, isolation_name);
     static constexpr std::array<std::string_view, 3> kTimes{"s", "min", "h"};
     if (const auto timeout = run.quantity_or_word("model_timeout", kTimes))
         options.model_timeout = timeout->number * (timeout->unit == "h" ? 3600 : timeout->unit == "min" ? 60 : 1);
@@ -108,12 +114,20 @@ void read_limits(const MapReader& run, RunOptions& options) {
 ConfigError::ConfigError(const std::filesystem::path& file, std::size_t line, const std::string& sentence)
     : std::runtime_error(message(file, line, sentence)), file_(file), line_(line) {}
 
+std::string_view isolation_name(Isolation isolation) { return isolation == Isolation::kNone ? "none" : "process"; }
+
 CohortConfig load_cohort(const std::filesystem::path& yaml) {
+    TextFile file = read_text_file(yaml, {yaml, 0, "the configuration file"});
+    CohortConfig config = parse_cohort(file.text, yaml);
+    config.text = std::move(file.raw);
+    return config;
+}
+
+CohortConfig parse_cohort(const std::string& text, const std::filesystem::path& yaml) {
     CohortConfig config;
     config.file = yaml;
-    TextFile file = read_text_file(yaml, {yaml, 0, "the configuration file"});
-    const std::shared_ptr<const YamlNode> document = parse_yaml(file.text, yaml);
-    config.text = std::move(file.raw);
+    config.text = text;
+    const std::shared_ptr<const YamlNode> document = parse_yaml(text, yaml);
 
     const MapReader top(yaml, *document, "", "the configuration");
     const std::filesystem::path folder = yaml.parent_path();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/options.h"
@@ -25,6 +26,14 @@ private:
     std::size_t line_;
 };
 
+/// Where models are computed.
+enum class Isolation {
+    kNone,     ///< in the process of the run
+    kProcess,  ///< in worker processes, whose crash is the failure of one model
+};
+
+std::string_view isolation_name(Isolation isolation);  ///< "none" | "process"
+
 /// How a run uses the machine; without influence on results.
 struct RunOptions {
     int threads = 0;             ///< 0 = all
@@ -32,6 +41,8 @@ struct RunOptions {
     double memory_percent = 70;  ///< of the memory this process may use, for the models in flight
     double memory_bytes = 0;     ///< the same in bytes, which stands instead; 0 = not stated
     double model_timeout = 0;    ///< work on one model after which it fails [s]; 0 = none
+    double model_memory = 0;     ///< memory beyond which one model fails [bytes]; 0 = no limit
+    Isolation isolation = Isolation::kNone;
 };
 
 /// Where results go and in which form.
@@ -59,6 +70,10 @@ struct CohortConfig {
 /// @throws ConfigError at the first error
 /// @cost linear in the size of the files
 CohortConfig load_cohort(const std::filesystem::path& yaml);
+
+/// The same of a text instead of a file's: of `resolved_text`, which names no table and no glob.
+/// @param yaml  the file the text stands for
+CohortConfig parse_cohort(const std::string& text, const std::filesystem::path& yaml);
 
 /// The configuration as YAML with every key explicit and the models as a list. Loaded from the same
 /// folder it gives the same tasks, run and archive settings.

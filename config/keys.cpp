@@ -62,6 +62,8 @@ constexpr std::array kKeys{
     KeyInfo{"run.models_in_flight", "integer", "auto", "models", "auto", {1, 65536, false}},
     KeyInfo{"run.memory", "size", "", "-", "70%"},
     KeyInfo{"run.model_timeout", "duration", "off", "-", "off"},
+    KeyInfo{"run.model_memory", "size", "off", "-", "off"},
+    KeyInfo{"run.isolation", "choice", "none|process", "-", "none"},
     KeyInfo{"archive", "map", "", "-", "{}"},
     KeyInfo{"archive.directory", "path", "", "-", "results"},
     KeyInfo{"archive.precision", "choice", "float32|float64", "-", "float32"},

@@ -132,6 +132,9 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "memory", config.run.memory_bytes > 0 ? exact_text(config.run.memory_bytes / 1e6) + " MB"
                                                      : exact_text(config.run.memory_percent) + "%");
     write(out, "model_timeout", config.run.model_timeout > 0 ? exact_text(config.run.model_timeout) + " s" : "off");
+    write(out, "model_memory",
+          config.run.model_memory > 0 ? exact_text(config.run.model_memory / 1e6) + " MB" : "off");
+    write(out, "isolation", isolation_name(config.run.isolation));
     out << YAML::EndMap;
     write_section(out, "archive");
     write_quoted(out, "directory", directory_text(config));

@@ -8,7 +8,8 @@ packages_build=(
     libtbb-dev libopenmesh-dev libhdf5-dev libssl-dev
     libyaml-cpp-dev libcli11-dev libfmt-dev
     libpugixml-dev zlib1g-dev nlohmann-json3-dev)
-packages_test=(libgtest-dev libbenchmark-dev python3-scipy python3-h5py python3-pandas python3-matplotlib)
+packages_test=(libgtest-dev libbenchmark-dev python3-scipy python3-h5py python3-pandas python3-matplotlib
+    slurm-wlm munge)
 
 wanted=()
 for group in "$@"; do

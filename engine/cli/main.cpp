@@ -6,10 +6,12 @@
 
 #include "config/cohort.h"
 #include "engine/cli/browse.h"
+#include "engine/cli/isolated.h"
 #include "engine/cli/phantom.h"
 #include "engine/cli/run.h"
 #include "engine/cli/stats.h"
 #include "engine/cli/status.h"
+#include "engine/cli/submit.h"
 #include "engine/core/version.h"
 #include "io/archive/lease.h"
 
@@ -26,11 +28,13 @@ int main(int argc, char** argv) {
     add_run(app, action);
     add_status(app, action);
     add_merge(app, action);
+    add_submit(app, action);
     add_validate(app, action);
     add_model(app, action);
     add_browse(app, action);
     add_stats(app, action);
     add_phantom(app, action);
+    add_worker(app, action);
     try {
         app.parse(argc, argv);
         return action();

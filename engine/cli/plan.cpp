@@ -46,7 +46,7 @@ void compare(const ArchiveSettings& archive, bool retry_failed, PlannedModel& mo
     }
     const std::string failed =
         fmt::format("it failed in {} ({})", stage_name(state.failure->stage), error_name(state.failure->code));
-    if (is_transient(state.failure->code)) {
+    if (is_transient(*state.failure)) {
         model.reason = failed + ", which need not happen again";
     } else if (retry_failed) {
         model.reason = failed + " and is to be tried again";

@@ -19,12 +19,14 @@
 
 #include "config/cohort.h"
 #include "engine/cli/estimates.h"
+#include "engine/cli/isolated.h"
 #include "engine/cli/lease_wait.h"
 #include "engine/cli/model_io.h"
 #include "engine/cli/plan.h"
 #include "engine/cli/progress.h"
 #include "engine/cli/shards.h"
 #include "engine/cli/standard_output.h"
+#include "engine/cli/store.h"
 #include "engine/cli/table.h"
 #include "engine/core/text.h"
 #include "engine/schedule/memory.h"
@@ -52,27 +54,11 @@ struct RunArguments {
     bool wait = false;
     bool retry_failed = false;
     bool dry_run = false;
+    std::string isolation;
 };
 
 /// How long the models in flight may take to heed a signal.
 constexpr std::chrono::seconds kGrace{5};
-
-/// Writes one finished record into the archive; a file that cannot be written is the model's failure.
-ModelSummary store(ModelRecord record, const ModelTask& task, const ArchiveSettings& archive) {
-    record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, archive.float32_fields);
-    ModelSummary summary = summarize(record);
-    try {
-        write_model_file(model_path(archive.directory, record.identity.id), record, {archive.float32_fields});
-    } catch (const StageError& error) {
-        summary.status = ModelStatus::kFailed;
-        summary.failure = Failure{error.stage(), error.code(), error.what()};
-    } catch (const std::exception& error) {
-        summary.status = ModelStatus::kFailed;
-        summary.failure = Failure{Stage::kArchive, ErrorCode::kInternal,
-                                  std::string("internal error, please report it with this model: ") + error.what()};
-    }
-    return summary;
-}
 
 /// How the models of a run ended.
 using Counts = std::map<ModelStatus, std::size_t>;
@@ -138,17 +124,47 @@ private:
         schedule.cancelled = StopOnSignal::flag();
         schedule.memory = memory_budget(config_.run);
         schedule.memory_of = [this](const ModelTask& task) { return estimated_memory(estimates_->sites(task)); };
+        schedule.refined_memory_of = estimated_memory;
         schedule.model_timeout = config_.run.model_timeout;
-        const RunReport report = run_models(to_run_, schedule, load_task, [&](ModelRecord&& record) {
-            const std::lock_guard lock(mutex_);
-            const ModelTask& task = *task_of_.at(record.identity.id);
-            ModelSummary summary = store(std::move(record), task, config_.archive);
-            ++counts_[summary.status];
-            progress.add(summary);
-            finished_.emplace(summary.identity.id, std::move(summary));
-        });
+        schedule.model_memory = config_.run.model_memory;
+        const RunReport report = isolated() ? run_in_workers(schedule, progress) : run_here(schedule, progress);
         progress.finish();
         return report;
+    }
+
+    [[nodiscard]] bool isolated() const {
+        return arguments_.isolation.empty() ? config_.run.isolation == Isolation::kProcess
+                                            : arguments_.isolation == isolation_name(Isolation::kProcess);
+    }
+
+    RunReport run_here(const ScheduleOptions& schedule, Progress& progress) {
+        return run_models(to_run_, schedule, load_task, [&](ModelRecord&& record) {
+            const std::lock_guard lock(mutex_);
+            const ModelTask& task = *task_of_.at(record.identity.id);
+            note(store_model(std::move(record), task, config_.archive).summary, progress);
+        });
+    }
+
+    RunReport run_in_workers(const ScheduleOptions& schedule, Progress& progress) {
+        IsolatedHandlers handlers;
+        handlers.worker = worker_arguments(config_.run);
+        handlers.request = [&](const ModelTask& task, int threads) { return worker_request(config_, task, threads); };
+        handlers.done = [&](const ModelTask& task, IsolatedResult&& result) {
+            const std::lock_guard lock(mutex_);
+            ModelSummary summary = settle(result, task, config_.archive);
+            const ModelStatus status = summary.status;
+            note(std::move(summary), progress);
+            return status;
+        };
+        const RunReport report = run_isolated(to_run_, schedule, handlers);
+        if (report.interrupted > 0) remove_left_overs();  // of the workers that were ended
+        return report;
+    }
+
+    void note(ModelSummary&& summary, Progress& progress) {
+        ++counts_[summary.status];
+        progress.add(summary);
+        finished_.emplace(summary.identity.id, std::move(summary));
     }
 
     /// Rows in the cohort's order: this run's models, and files of earlier runs. A shard leaves the index to `merge`,
@@ -306,6 +322,9 @@ void add_run(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--shard", arguments->shard, "Compute part I of N (I/N), beside the other parts; then merge");
     verb->add_flag("--wait", arguments->wait, "Wait while another run holds the archive, instead of stopping");
     verb->add_flag("--retry-failed", arguments->retry_failed, "Try models again that failed before");
+    verb->add_option("--isolation", arguments->isolation,
+                     "none: compute in this process; process: in worker processes, where a crash fails one model only")
+        ->check(CLI::IsMember({"none", "process"}));
     verb->add_flag("--dry-run", arguments->dry_run, "Say what would run and why, and write nothing");
     verb->footer(
         "A model whose file stands with the same surface, options and format is done and is not computed again; so a\n"

@@ -1,5 +1,6 @@
-// Status asks the model files alone, so it is the same while runs write, between them, and from any machine. It does
-// not read surfaces: that one has changed since is for the next run (or its --dry-run) to find.
+// Status asks the model files alone, so it is the same while runs write, between them, and from any machine; the index
+// saves opening those that have not changed since it was made. It does not read surfaces: that one has changed since is
+// for the next run (or its --dry-run) to find.
 #include "engine/cli/status.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "engine/cli/model_io.h"
 #include "engine/cli/plan.h"
 #include "engine/cli/run.h"
+#include "engine/cli/slurm.h"
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
 #include "engine/core/text.h"
@@ -43,7 +45,8 @@ struct Status {
     std::vector<FailedModel> failed;
     std::vector<PendingModel> pending;
     std::vector<LeaseHolder> runs;
-    double seconds_left = 0;  ///< of work, in one thread
+    std::vector<SlurmTask> slurm;  ///< in its queue
+    double seconds_left = 0;       ///< of work, in one thread
 };
 
 /// Why a model has no result that stands, as far as its file tells; empty = it has one.
@@ -52,7 +55,7 @@ std::string pending_reason(const CohortConfig& config, const ModelTask& task, co
     if (state->id != task.identity.id) return "its file is that of another model";
     if (inputs_digest(task, state->source_sha256, config.archive.float32_fields) != state->inputs_sha256)
         return "options, format or program have changed";
-    if (state->failure && is_transient(state->failure->code))
+    if (state->failure && is_transient(*state->failure))
         return fmt::format("failed in {} ({}), to be tried again", stage_name(state->failure->stage),
                            error_name(state->failure->code));
     return "";
@@ -71,12 +74,14 @@ Status read_status(const CohortConfig& config) {
     Status status;
     std::vector<const ModelTask*> left, done;
     double seconds_of_done = 0;
+    const std::map<std::string, ModelState> indexed = read_indexed_states(config.archive.directory);
     for (const ModelTask& task : config.tasks) {
         const std::string& id = task.identity.id;
         std::optional<ModelState> state;
         std::string reason;
         try {
-            state = read_state(model_path(config.archive.directory, id));
+            const auto known = indexed.find(id);
+            state = known != indexed.end() ? known->second : read_state(model_path(config.archive.directory, id));
             reason = pending_reason(config, task, state);
         } catch (const ArchiveError& error) {
             reason = fmt::format("its file cannot be used: {}", error.what());
@@ -92,6 +97,7 @@ Status read_status(const CohortConfig& config) {
         seconds_of_done += state->seconds;
     }
     status.runs = read_leases(config.archive.directory);
+    status.slurm = queued_tasks(config.archive.directory);
     status.seconds_left = seconds_left(left, done, seconds_of_done);
     return status;
 }
@@ -112,6 +118,7 @@ void print_json(std::ostream& out, const CohortConfig& config, Status& status) {
                       {"pending", status.pending.size()},
                       {"seconds_left", status.seconds_left},
                       {"runs", ordered_json::array()},
+                      {"slurm", ordered_json::array()},
                       {"failures", ordered_json::array()},
                       {"pending_models", ordered_json::array()}};
     for (const LeaseHolder& run : status.runs)
@@ -122,6 +129,12 @@ void print_json(std::ostream& out, const CohortConfig& config, Status& status) {
                                 {"since", run.since},
                                 {"heartbeat_age", run.heartbeat_age},
                                 {"alive", run.alive}});
+    for (const SlurmTask& task : status.slurm)
+        json["slurm"].push_back({{"job", task.job},
+                                 {"shard", task.shard},
+                                 {"state", task.state},
+                                 {"reason", task.reason},
+                                 {"node", task.node}});
     for (const FailedModel& model : status.failed)
         json["failures"].push_back({{"id", model.id},
                                     {"stage", stage_name(model.failure.stage)},
@@ -133,6 +146,19 @@ void print_json(std::ostream& out, const CohortConfig& config, Status& status) {
     out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
+/// A line for each of the first jobs in Slurm's queue.
+void print_queue(std::ostream& out, const std::vector<SlurmTask>& tasks) {
+    constexpr std::size_t kShown = 20;
+    for (std::size_t i = 0; i < std::min(tasks.size(), kShown); ++i) {
+        const SlurmTask& task = tasks[i];
+        out << fmt::format("slurm job {}, {}: {}{}{}\n", task.job,
+                           task.shard > 0 ? fmt::format("shard {}", task.shard) : "merge", task.state,
+                           task.reason.empty() ? "" : " (" + task.reason + ")",
+                           task.node.empty() ? "" : " on " + task.node);
+    }
+    if (tasks.size() > kShown) out << fmt::format("and {} more jobs\n", tasks.size() - kShown);
+}
+
 void print_text(std::ostream& out, const CohortConfig& config, Status& status) {
     out << fmt::format("{}: {} ok, {} with warnings, {} failed, {} pending of {}\n", config.name,
                        status.counts[ModelStatus::kOk], status.counts[ModelStatus::kWarning], status.failed.size(),
@@ -141,6 +167,7 @@ void print_text(std::ostream& out, const CohortConfig& config, Status& status) {
         out << fmt::format("{} {}/{}: process {} on {} since {}, last sign of life {:.0f} s ago\n",
                            run.alive ? "running" : "dead run", run.shard.index, run.shard.count, run.process, run.host,
                            run.since, run.heartbeat_age);
+    print_queue(out, status.slurm);
     if (!status.pending.empty())
         out << fmt::format("left: about {} in one thread, {} in all of this machine\n",
                            duration_text(status.seconds_left),
@@ -216,7 +243,8 @@ void add_status(CLI::App& app, std::function<int()>& action) {
     verb->add_option("COHORT", arguments->cohort, "The cohort's YAML file (config/SCHEMA.md)")->required();
     verb->add_flag("--json", arguments->json, "As JSON");
     verb->footer(
-        "Looks at the model files and leases of the archive, and reads no surface.\n"
+        "Looks at the model files and leases of the archive, and reads no surface; after `submit`, also at Slurm's\n"
+        "queue.\n"
         "Exit status: 0 all models done, 1 at least one failed, 2 usage or configuration error, 3 some are left.");
     verb->callback(
         [arguments, &action] { action = [arguments] { return show_status(arguments->cohort, arguments->json); }; });

@@ -39,6 +39,7 @@ std::string_view error_name(ErrorCode code) {
         case ErrorCode::kInterrupted: return "interrupted";
         case ErrorCode::kOutOfMemory: return "out_of_memory";
         case ErrorCode::kTimeout: return "timeout";
+        case ErrorCode::kCrashed: return "crashed";
         case ErrorCode::kInternal: return "internal";
     }
     return "internal";

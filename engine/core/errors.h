@@ -43,9 +43,10 @@ enum class ErrorCode {
     kOutOfMemory,        ///< allocation failed
     kInternal,           ///< a broken promise of ours
     kTimeout,            ///< more time than run.model_timeout
+    kCrashed,            ///< the worker process that computed the model died
 };
 
-inline constexpr int kErrorCodeCount = 25;
+inline constexpr int kErrorCodeCount = 26;
 
 /// Stable snake_case name of a code, as written in the archive.
 std::string_view error_name(ErrorCode code);

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 
 namespace lumenline {
 
 std::string_view status_name(ModelStatus status) {
     static constexpr std::array<std::string_view, 3> kNames{"ok", "warning", "failed"};
     return kNames.at(static_cast<std::size_t>(status));
+}
+
+bool is_transient(const Failure& failure) {
+    return is_transient(failure.code) || (failure.code == ErrorCode::kCrashed && failure.signal == SIGKILL);
 }
 
 namespace {

@@ -40,7 +40,12 @@ struct Failure {
     Stage stage = Stage::kLoad;
     ErrorCode code = ErrorCode::kInternal;
     std::string sentence;
+    int signal = 0;  ///< that ended the worker process; 0 = none
 };
+
+/// Does the failure tell of the machine and not of the model? Such a one is tried again by the next run: by its code,
+/// and a worker process that was killed from outside, as the system does where memory runs out.
+bool is_transient(const Failure& failure);
 
 /// What differs between two runs of the same input.
 struct RunFacts {

@@ -8,6 +8,7 @@
 #include "engine/condition/condition.h"
 #include "engine/core/text.h"
 #include "engine/endpoints/endpoints.h"
+#include "engine/schedule/memory.h"
 #include "engine/trace/trace.h"
 #include "engine/voronoi/voronoi.h"
 
@@ -19,16 +20,19 @@ Failure describe(Stage stage, const std::exception& thrown) {
     if (const auto* error = dynamic_cast<const StageError*>(&thrown))
         return {error->stage(), error->code(), error->what()};
     if (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr)
-        return {stage, ErrorCode::kOutOfMemory,
-                "memory ran out in this stage: give the run more memory or fewer models in flight"};
+        return {
+            stage, ErrorCode::kOutOfMemory,
+            "memory ran out in this stage: give the run more memory (run.memory, run.model_memory) or fewer models in "
+            "flight"};
     return {stage, ErrorCode::kInternal,
             std::string("internal error, please report it with this model: ") + thrown.what()};
 }
 
 }  // namespace
 
-ModelJob::ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled, double timeout)
-    : task_(task), make_context_(std::move(make_context)), cancelled_(cancelled), timeout_(timeout) {
+ModelJob::ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled,
+                   ModelLimits limits)
+    : task_(task), make_context_(std::move(make_context)), cancelled_(cancelled), limits_(limits) {
     record_.identity = task.identity;
     record_.options = canonical_text(task);
 }
@@ -40,7 +44,7 @@ void ModelJob::run(Stage stage, Diagnostics& findings, std::optional<Failure>& f
         make_context_ ? make_context_(stage) : std::make_unique<StageContext>(stage, cancelled_);
     try {
         context->check_cancelled();
-        check_time(stage);
+        check_limits(stage);
         body(*context);
     } catch (const std::exception& thrown) {
         failure = describe(stage, thrown);
@@ -55,14 +59,20 @@ void ModelJob::run(Stage stage, const std::function<void(StageContext&)>& body) 
         body);
 }
 
-void ModelJob::check_time(Stage stage) const {
-    if (timeout_ <= 0) return;
+void ModelJob::check_limits(Stage stage) const {
     double spent = 0;
     for (const double seconds : record_.facts.stage_seconds) spent += seconds;
-    if (spent > timeout_)
+    if (limits_.seconds > 0 && spent > limits_.seconds)
         throw StageError(stage, ErrorCode::kTimeout,
                          "the model had taken " + short_text(spent) + " s before this stage, more than its limit of " +
-                             short_text(timeout_) + " s (run.model_timeout)");
+                             short_text(limits_.seconds) + " s (run.model_timeout)");
+    const double need = record_.surface ? estimated_memory(static_cast<double>(sites())) : 0;
+    constexpr double kMegabyte = 1e6;
+    if (limits_.memory > 0 && need > limits_.memory)
+        throw StageError(stage, ErrorCode::kOutOfMemory,
+                         "a model of " + counted(sites(), "site") + " needs about " + short_text(need / kMegabyte, 3) +
+                             " MB, more than its limit of " + short_text(limits_.memory / kMegabyte, 3) +
+                             " MB (run.model_memory)");
 }
 
 void ModelJob::load(const Loader& loader) {

@@ -15,6 +15,12 @@ namespace lumenline {
 /// Reads the surface of a task, scaled by its `scale`. Called from several threads at once.
 using Loader = std::function<TriangleSoup(const ModelTask&)>;
 
+/// What one model may take. Looked at as each stage begins.
+struct ModelLimits {
+    double seconds = 0;  ///< work after which no further stage begins; 0 = none
+    double memory = 0;   ///< estimated need, as soon as its sites are known [bytes]; 0 = none
+};
+
 /// One model on its way through the stages. Every call catches what its stage throws and turns it
 /// into the record's failure; later calls then do nothing. No two calls on one job may run at once,
 /// but for solve() with different sources.
@@ -23,8 +29,8 @@ public:
     /// How a stage gets its surroundings; null = serial.
     using ContextMaker = std::function<std::unique_ptr<StageContext>(Stage)>;
 
-    /// @param timeout  work after which no further stage begins and the model fails [s]; 0 = none
-    ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled, double timeout = 0);
+    ModelJob(const ModelTask& task, ContextMaker make_context, const std::atomic<bool>* cancelled,
+             ModelLimits limits = {});
 
     void load(const Loader& loader);
     void condition();
@@ -37,6 +43,10 @@ public:
     void trace();
     void characterize();
 
+    /// Of the surface as far as it has come; 0 = it has not been read.
+    [[nodiscard]] std::size_t sites() const {
+        return record_.surface ? record_.surface->site_count() : soup_.points.size();
+    }
     [[nodiscard]] bool failed() const { return record_.failure.has_value(); }
     /// Was the run stopped before this model was done?
     [[nodiscard]] bool interrupted() const { return failed() && record_.failure->code == ErrorCode::kInterrupted; }
@@ -56,15 +66,15 @@ private:
     void run(Stage stage, Diagnostics& findings, std::optional<Failure>& failure, double& seconds,
              const std::function<void(StageContext&)>& body) const;
     void run(Stage stage, const std::function<void(StageContext&)>& body);
-    /// Throws StageError kTimeout if the stages before `stage` took too long.
-    void check_time(Stage stage) const;
+    /// Throws StageError kTimeout or kOutOfMemory if the model is beyond its limits.
+    void check_limits(Stage stage) const;
     /// Gathers the solved sources in endpoint order.
     void join_sources();
 
     const ModelTask& task_;
     ContextMaker make_context_;
     const std::atomic<bool>* cancelled_;
-    double timeout_;
+    ModelLimits limits_;
     ModelRecord record_;
     TriangleSoup soup_;
     std::vector<Source> sources_;

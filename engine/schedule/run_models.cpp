@@ -4,13 +4,13 @@
 //       ^                                                        \__ failed: no sources ____________/ |
 //       |_________________________ release: writer <- characterize <---------------------------------|
 //
-// Admission is a serial node that holds the queue and what is free of places and memory: each model that leaves
-// gives back what it took, so no token can be lost between a failure and its release. The sources of a model count
+// Admission is a serial node: each model that leaves gives back what it took, so no token can be lost between a
+// failure and its release; and when its surface is read, and again when it is conditioned, what the model takes is put
+// right. The sources of a model count
 // down; the last one sends it on. Bodies never throw: an exception that leaves a node cancels the graph, and with it
 // every other model. The graph is built inside its arena, or it would run on one thread.
 #include "engine/schedule/run_models.h"
 
-#include <sys/resource.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/flow_graph.h>
 #include <tbb/info.h>
@@ -20,14 +20,15 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "engine/schedule/admission.h"
 #include "engine/schedule/handover.h"
+#include "engine/schedule/memory.h"
 
 namespace lumenline {
 
@@ -41,11 +42,10 @@ struct AdmittedJob : ModelJob {
     double bytes = 0;
 };
 
-/// What becomes free.
+/// News for the admission.
 struct Release {
-    int places = 0;
-    double bytes = 0;
-    int models = 0;  ///< that have left
+    bool left = false;  ///< a model has
+    double bytes = 0;   ///< that become free
 };
 
 using JobPtr = std::shared_ptr<AdmittedJob>;
@@ -73,27 +73,20 @@ public:
     }
 };
 
-double peak_resident_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) * 1024;
-}
-
 class CohortGraph {
 public:
-    CohortGraph(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,
+    CohortGraph(std::span<const ModelTask> tasks, const ScheduleOptions& options, int in_flight, const Loader& loader,
                 const Sink& sink, RunReport& report)
         : tasks_(tasks),
-          cancelled_(options.cancelled),
-          memory_(options.memory > 0 ? options.memory : std::numeric_limits<double>::infinity()),
-          memory_of_(options.memory_of),
-          timeout_(options.model_timeout),
+          options_(options),
           loader_(loader),
           sink_(sink),
           report_(report),
+          queue_(needs_of(tasks, options), in_flight, options.memory),
           admission_(graph_, flow::serial, [this](const Release& r, auto& ports) { admit(r, ports); }),
-          load_(graph_, flow::unlimited, [this](const JobPtr& job) { return step(job, [&] { job->load(loader_); }); }),
-          condition_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->condition(); }); }),
+          load_(graph_, flow::unlimited, [this](const JobPtr& job) { return step(job, [&] { load(*job); }); }),
+          condition_(graph_, flow::unlimited,
+                     [this](const JobPtr& job) { return step(job, [&] { condition(*job); }); }),
           voronoi_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->build_complex(); }); }),
           endpoints_(graph_, flow::unlimited,
                      [](const JobPtr& job) { return step(job, [&] { job->find_endpoints(); }); }),
@@ -116,15 +109,12 @@ public:
         flow::make_edge(writer_, admission_);
     }
 
-    void run(int in_flight) {
-        queue_.reserve(tasks_.size());
-        for (std::size_t i = tasks_.size(); i-- > 0;) queue_.push_back({i, memory_of_ ? memory_of_(tasks_[i]) : 0});
-        most_passed_ = in_flight;
+    void run() {
         handed_on(this);
-        admission_.try_put({in_flight, memory_, 0});
+        admission_.try_put({});
         graph_.wait_for_all();
         taken(this);
-        report_.not_started = queue_.size();
+        report_.not_started = queue_.waiting();
         if (sink_failure_) std::rethrow_exception(sink_failure_);
         const std::size_t known =
             report_.ok + report_.warning + report_.failed + report_.interrupted + report_.not_started;
@@ -133,12 +123,14 @@ public:
     }
 
 private:
-    using Admission = flow::multifunction_node<Release, std::tuple<JobPtr>>;
+    using AdmissionNode = flow::multifunction_node<Release, std::tuple<JobPtr>>;
     using FanOut = flow::multifunction_node<JobPtr, std::tuple<SourceOfJob, JobPtr>>;
     using Solver = flow::multifunction_node<SourceOfJob, std::tuple<JobPtr>>;
     using StageNode = flow::function_node<JobPtr, JobPtr>;
 
-    [[nodiscard]] bool stopped() const { return sink_failed_ || (cancelled_ != nullptr && cancelled_->load()); }
+    [[nodiscard]] bool stopped() const {
+        return sink_failed_ || (options_.cancelled != nullptr && options_.cancelled->load());
+    }
 
     /// One stage of a job, and the job again.
     template <class Body>
@@ -148,44 +140,47 @@ private:
         return job;
     }
 
-    struct Waiting {
-        std::size_t task;
-        double bytes;
-    };
-
     /// Lets in as many models as there is room for.
-    void admit(const Release& release, Admission::output_ports_type& ports) {
+    void admit(const Release& release, AdmissionNode::output_ports_type& ports) {
         const Handover scope(this);
-        places_ += release.places;
-        bytes_ += release.bytes;
-        in_flight_ -= release.models;
-        while (places_ > 0 && !stopped()) {
-            const auto chosen = next_that_fits();
-            if (chosen == queue_.rend()) return;
-            const auto context = [this](Stage stage) { return std::make_unique<ParallelContext>(stage, cancelled_); };
-            const auto job = std::make_shared<AdmittedJob>(tasks_[chosen->task], context, cancelled_, timeout_);
-            job->bytes = chosen->bytes;
-            --places_;
-            bytes_ -= job->bytes;
-            ++in_flight_;
-            queue_.erase(std::next(chosen).base());
+        if (release.left) {
+            queue_.free_place();
+            queue_.leave(release.bytes);
+        } else {
+            queue_.correct(-release.bytes);
+        }
+        while (!stopped()) {
+            const auto admitted = queue_.next();
+            if (!admitted) return;
+            const ModelTask& task = tasks_[admitted->model];
+            const auto context = [this, &task](Stage stage) {
+                if (options_.on_stage) options_.on_stage(task, stage);
+                return std::make_unique<ParallelContext>(stage, options_.cancelled);
+            };
+            const auto job = std::make_shared<AdmittedJob>(task, context, options_.cancelled,
+                                                           ModelLimits{options_.model_timeout, options_.model_memory});
+            job->bytes = admitted->bytes;
             handed_on(job.get());
             std::get<0>(ports).try_put(job);
         }
     }
 
-    /// The queue is in reverse: what is taken from it mostly stands at its end.
-    std::vector<Waiting>::reverse_iterator next_that_fits() {
-        const auto first = queue_.rbegin();
-        if (first == queue_.rend()) return first;
-        if (in_flight_ == 0 || first->bytes <= bytes_) {
-            passed_ = 0;
-            return first;
-        }
-        if (passed_ >= most_passed_) return queue_.rend();
-        const auto found = std::find_if(first, queue_.rend(), [this](const Waiting& w) { return w.bytes <= bytes_; });
-        if (found != queue_.rend()) ++passed_;
-        return found;
+    void load(AdmittedJob& job) {
+        job.load(loader_);
+        correct_memory(job);
+    }
+
+    void condition(AdmittedJob& job) {
+        job.condition();
+        correct_memory(job);
+    }
+
+    /// What a model takes from the budget, now that more is known of it.
+    void correct_memory(AdmittedJob& job) {
+        if (!options_.refined_memory_of || job.sites() == 0) return;
+        const double bytes = options_.refined_memory_of(static_cast<double>(job.sites()));
+        const double freed = std::exchange(job.bytes, bytes) - bytes;
+        if (freed != 0) admission_.try_put({false, freed});
     }
 
     static void fan_out(const JobPtr& job, FanOut::output_ports_type& ports) {
@@ -209,7 +204,7 @@ private:
     Release write(AdmittedJob& job) {
         taken(&job);
         const Handover scope(this);
-        const Release release{1, job.bytes, 1};
+        const Release release{true, job.bytes};
         const bool interrupted = job.interrupted();
         ModelRecord record = job.take();
         record.facts.peak_resident_bytes = peak_resident_bytes();
@@ -232,21 +227,16 @@ private:
     }
 
     std::span<const ModelTask> tasks_;
-    const std::atomic<bool>* cancelled_;
-    double memory_;
-    const std::function<double(const ModelTask&)>& memory_of_;
-    double timeout_;
+    const ScheduleOptions& options_;
     const Loader& loader_;
     const Sink& sink_;
     RunReport& report_;
-    std::vector<Waiting> queue_;
-    int places_ = 0, in_flight_ = 0, passed_ = 0, most_passed_ = 0;  // of the admission
-    double bytes_ = 0;
+    Admission queue_;  // of the admission's node
     std::exception_ptr sink_failure_;
     std::atomic<bool> sink_failed_{false};
     tbb::enumerable_thread_specific<EikonalWorkspace> workspaces_;
     flow::graph graph_;
-    Admission admission_;
+    AdmissionNode admission_;
     StageNode load_, condition_, voronoi_, endpoints_;
     FanOut fan_out_;
     Solver eikonal_;
@@ -255,6 +245,13 @@ private:
 };
 
 }  // namespace
+
+std::vector<double> needs_of(std::span<const ModelTask> tasks, const ScheduleOptions& options) {
+    std::vector<double> needs;
+    needs.reserve(tasks.size());
+    for (const ModelTask& task : tasks) needs.push_back(options.memory_of ? options.memory_of(task) : 0);
+    return needs;
+}
 
 int available_threads() { return tbb::info::default_concurrency(); }
 
@@ -266,8 +263,8 @@ RunReport run_models(std::span<const ModelTask> tasks, const ScheduleOptions& op
     const int in_flight = options.models_in_flight > 0 ? options.models_in_flight : 2 * report.threads + 1;
     tbb::task_arena arena(report.threads);
     arena.execute([&] {
-        CohortGraph graph(tasks, options, loader, sink, report);
-        graph.run(in_flight);
+        CohortGraph graph(tasks, options, in_flight, loader, sink, report);
+        graph.run();
     });
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;

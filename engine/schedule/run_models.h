@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "engine/core/model_record.h"
 #include "engine/core/options.h"
@@ -19,7 +20,11 @@ struct ScheduleOptions {
     /// Bytes for the models in flight, by their estimates; 0 = no bound. A model that needs more runs alone.
     double memory = 0;
     std::function<double(const ModelTask&)> memory_of;  ///< estimated need of a model [bytes]; null = nothing
+    /// The same of a model of so many sites, put in its place when they are known; null = the estimate stands.
+    std::function<double(double)> refined_memory_of;
     double model_timeout = 0;  ///< work on one model after which no further stage of it begins [s]; 0 = none
+    double model_memory = 0;   ///< estimated need after conditioning with which a model fails [bytes]; 0 = none
+    std::function<void(const ModelTask&, Stage)> on_stage;  ///< called as each stage begins, from any thread
 };
 
 /// Takes a finished record, in the order of completion; called by one thread at a time. What it
@@ -43,6 +48,9 @@ struct RunReport {
 /// @throws std::logic_error if a model got lost (a broken promise of ours), and what the sink throws
 RunReport run_models(std::span<const ModelTask> tasks, const ScheduleOptions& options, const Loader& loader,
                      const Sink& sink);
+
+/// Estimated memory of each task; nothing without an estimate [bytes].
+std::vector<double> needs_of(std::span<const ModelTask> tasks, const ScheduleOptions& options);
 
 /// The number of threads that `threads` = 0 stands for.
 int available_threads();

@@ -16,7 +16,9 @@
 
 #include "engine/core/size_note.h"
 #include "engine/core/version.h"
+#include "io/archive/file_stamp.h"
 #include "io/archive/index_names.h"
+#include "io/archive/model_file.h"
 #include "io/archive/utf8.h"
 #include "io/archive/writer.h"
 
@@ -198,6 +200,18 @@ void write_failures(Writer& writer, Models models) {
     text_column(writer, names::kFailedSentence, failed, [](const auto& m) { return m.failure->sentence; });
 }
 
+/// What tells later whether a file is still the one that its row was made from.
+void write_file_stamps(Writer& writer, const std::filesystem::path& archive_dir, Models models) {
+    std::vector<double> bytes, times;
+    for (const ModelSummary& model : models) {
+        const FileStamp stamp = stamp_of(model_path(archive_dir, model.identity.id));
+        bytes.push_back(stamp.bytes);
+        times.push_back(stamp.time);
+    }
+    writer.column(names::kFileBytes, bytes);
+    writer.column(names::kFileTime, times);
+}
+
 void write_seconds(Writer& writer, Models models) {
     identity_column(writer, names::kSecondsId, models, &ModelIdentity::id);
     std::vector<double> seconds;
@@ -228,6 +242,7 @@ void write_index(const std::filesystem::path& archive_dir, std::span<const Model
         writer.text(names::kConfigGiven, config_text);
         writer.text(names::kConfigResolved, resolved_config);
         write_seconds(writer, models);
+        write_file_stamps(writer, archive_dir, models);
         writer.commit();
     } catch (const hdf::Inconsistent& error) {
         throw StageError(Stage::kArchive, ErrorCode::kInternal,

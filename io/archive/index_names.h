@@ -90,6 +90,8 @@ inline constexpr Field kConfigResolved{"/config/resolved", "1", "configuration, 
 
 inline constexpr Field kSecondsId{"/timing/id", "1", "name of the model"};
 inline constexpr Field kSeconds{"/timing/seconds", "s", "time of work on the model, without waiting"};
+inline constexpr Field kFileBytes{"/timing/file_bytes", "B", "size of the model's file; NaN = it has none"};
+inline constexpr Field kFileTime{"/timing/file_time", "s", "when the file was last written, since 1970; NaN = it has none"};
 // clang-format on
 
 }  // namespace lumenline::names

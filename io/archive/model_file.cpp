@@ -64,6 +64,7 @@ void write_identity(Writer& writer, const ModelRecord& record) {
         writer.attribute("/", "failure_stage", stage_name(record.failure->stage));
         writer.attribute("/", "failure_code", error_name(record.failure->code));
         writer.attribute("/", "failure_sentence", record.failure->sentence);
+        if (record.failure->signal != 0) writer.attribute("/", "failure_signal", record.failure->signal);
     }
     writer.strings(names::kCovariateName, text_column(who.covariates, [](const auto& c) { return c.first; }));
     writer.strings(names::kCovariateValue, text_column(who.covariates, [](const auto& c) { return c.second; }));

@@ -151,8 +151,11 @@ std::shared_ptr<const Surface> read_surface_sizes(const ArchiveFile& file) {
 }
 
 Failure read_failure(const ArchiveFile& file) {
-    return {stage_of(file, text_attribute(file, "failure_stage")), code_of(file, text_attribute(file, "failure_code")),
-            text_attribute(file, "failure_sentence")};
+    const std::string signal = file.attribute("/", "failure_signal").value_or("0");
+    Failure failure{stage_of(file, text_attribute(file, "failure_stage")),
+                    code_of(file, text_attribute(file, "failure_code")), text_attribute(file, "failure_sentence")};
+    std::from_chars(signal.data(), signal.data() + signal.size(), failure.signal);
+    return failure;
 }
 
 /// A column of the index, which must have one value per model.

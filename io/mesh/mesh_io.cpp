@@ -1,11 +1,16 @@
 // Finds the format of a surface file and reads it. The file is read once into memory; the parsers and the SHA-256
-// see the same bytes. The content decides on the format, because extensions lie and because a binary STL file may
-// begin with any word; only OBJ has no mark of its own and goes by its extension.
+// see the same bytes; a file that is written to or replaced meanwhile is refused. The content decides on the format, because
+// extensions lie and because a binary STL file may begin with any word; only OBJ has no mark of its own and goes by its
+// extension.
 
 #include "io/mesh/mesh_io.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -75,6 +80,16 @@ struct Bytes {
     throw StageError(Stage::kLoad, ErrorCode::kFileUnreadable, path + ": expected a readable file, found that " + why);
 }
 
+/// What changes with every write to an open file, and when another one is renamed over it: it loses a link then.
+using FileVersion = std::array<std::int64_t, 5>;
+
+FileVersion version_of(std::FILE* file) {
+    struct stat status {};
+    if (::fstat(::fileno(file), &status) != 0) return {};
+    return {status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_ctim.tv_sec,
+            status.st_ctim.tv_nsec};
+}
+
 Bytes read_bytes(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -85,12 +100,15 @@ Bytes read_bytes(const std::string& path) {
     if (error) fail_unreadable(path, "its size is unknown (" + error.message() + ")");
     const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
     if (!file) fail_unreadable(path, "it cannot be opened (" + std::string(std::strerror(errno)) + ")");
+    const FileVersion before = version_of(file.get());
     Bytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
     const std::size_t got = std::fread(bytes.data.get(), 1, size, file.get());
     if (got != size || std::fgetc(file.get()) != EOF || std::ferror(file.get()) != 0) {
         fail_unreadable(path, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
                                   " or the file changed meanwhile");
     }
+    if (version_of(file.get()) != before)
+        fail_unreadable(path, "it changed while it was read: run again when it is complete");
     return bytes;
 }
 

@@ -21,7 +21,8 @@ namespace lumenline {
 /// coordinates are identical
 /// (-0.0 counts as +0.0); nothing else is merged or dropped: repeated corners and unused points stay.
 /// Coordinates are those of the file, in double precision and the file's unit.
-/// @throws StageError (Stage::kLoad) kFileUnreadable: no regular file, or it cannot be read;
+/// @throws StageError (Stage::kLoad) kFileUnreadable: no regular file, or it cannot be read, or it
+///         is written to or replaced while it is read;
 ///         kFileFormat: another format, damaged or truncated; kNoSurface: no triangle; kBadCoordinate: NaN or
 ///         infinite; kTooLarge: more than 2^31 - 1 points or triangles. The sentence names the file and the
 ///         line (text) or byte (binary). A text file without counts (OBJ, several STL solids) that was cut

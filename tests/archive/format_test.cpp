@@ -165,6 +165,10 @@ TEST(Format, ModelFileIsAsDocumented) {
     std::set<std::string> seen;
     EXPECT_EQ(complaints(ArchiveFile(sample_file("format")), spec, seen), Strings{});
     EXPECT_EQ(complaints(ArchiveFile(sample_file("format_failed", failed_record())), spec, seen), Strings{});
+    ModelRecord crashed = failed_record();
+    crashed.failure->code = ErrorCode::kCrashed;
+    crashed.failure->signal = 11;
+    EXPECT_EQ(complaints(ArchiveFile(sample_file("format_crashed", crashed)), spec, seen), Strings{});
     EXPECT_EQ(missing(spec, seen), Strings{});
 }
 

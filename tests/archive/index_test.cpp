@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -161,6 +162,42 @@ TEST(Index, SecondsAloneDoNotChangeTheTables) {
     for (std::size_t i = 0; i < first.size(); ++i) differing += first[i] != second[i] ? 1 : 0;
     EXPECT_GT(differing, 0U);
     EXPECT_LE(differing, sizeof(double)) << "only the bytes of /timing/seconds";
+}
+
+TEST(States, OfTheIndexAreThoseOfTheFilesUntilAFileChanges) {
+    const auto archive = sample_archive({sample_record("a"), sample_record("b"), failed_record("c")}, "states");
+    const auto states = read_indexed_states(archive);
+    ASSERT_EQ(states.size(), 2U) << "what has failed is looked up in its file";
+    for (const auto& [id, state] : states) {
+        const std::optional<ModelState> own = read_state(model_path(archive, id));
+        ASSERT_TRUE(own);
+        EXPECT_EQ(state.id, id);
+        EXPECT_EQ(state.status, own->status);
+        EXPECT_EQ(state.source_sha256, own->source_sha256);
+        EXPECT_EQ(state.inputs_sha256, own->inputs_sha256);
+        EXPECT_EQ(state.seconds, own->seconds);
+        EXPECT_FALSE(state.failure || own->failure);
+    }
+    const auto file = model_path(archive, "a");
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) - std::chrono::seconds(1));
+    std::filesystem::remove(model_path(archive, "b"));
+    EXPECT_TRUE(read_indexed_states(archive).empty());
+    write_bytes(archive / "cohort.h5", "no index");
+    EXPECT_TRUE(read_indexed_states(archive).empty());
+    EXPECT_TRUE(read_indexed_states(archive / "absent").empty());
+}
+
+TEST(States, SignalOfACrashIsKept) {
+    ModelRecord crashed = failed_record("x");
+    crashed.failure->code = ErrorCode::kCrashed;
+    crashed.failure->signal = 9;
+    const auto archive = sample_archive({crashed}, "signal");
+    const std::optional<ModelState> state = read_state(model_path(archive, "x"));
+    ASSERT_TRUE(state && state->failure);
+    EXPECT_EQ(state->failure->signal, 9);
+    EXPECT_TRUE(is_transient(*state->failure)) << "killed from outside";
+    crashed.failure->signal = 11;
+    EXPECT_FALSE(is_transient(*crashed.failure));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDocuments[] = {"README.md", "examples/README.md", "config/SCHEMA.md", "io/ARCHIVE.md",
-                                      "bench/README.md"};
+constexpr const char* kDocuments[] = {"README.md",        "examples/README.md", "examples/slurm/README.md",
+                                      "config/SCHEMA.md", "io/ARCHIVE.md",      "bench/README.md"};
 
 /// What a reader has who cloned the repository: the examples, without anything that was computed.
 fs::path repository_copy() {

@@ -63,7 +63,7 @@ void expect_same(const Contents& expected, const Contents& found) {
 
 }  // namespace
 
-void expect_kills_leave_no_trace(int kills, unsigned seed) {
+void expect_kills_leave_no_trace(int kills, unsigned seed, const std::vector<std::string>& arguments) {
     const fs::path folder = small_cohort();
     write_text(folder / "junk.stl", "no surface\n");
     write_text(folder / "cohort.yaml", read_text(folder / "cohort.yaml") +
@@ -77,12 +77,14 @@ void expect_kills_leave_no_trace(int kills, unsigned seed) {
     ASSERT_EQ(expected.size(), 7U);
     fs::remove_all(archive);
 
+    std::vector<std::string> command{LUMENLINE_BINARY, "run", "cohort.yaml", "--threads", "2"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> moment(0, 1.2 * whole);
     int killed = 0;
     std::size_t opened = 0;
     while (killed < kills && !::testing::Test::HasFailure()) {
-        Process run({LUMENLINE_BINARY, "run", "cohort.yaml", "--threads", "2"}, folder);
+        Process run(command, folder);
         const auto end =
             Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(moment(random)));
         opened += poll_until(run, archive, end);

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +25,7 @@ namespace {
 
 [[noreturn]] void become(char* const* argv, const char* folder, const char* out, const char* err) {
     for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed leaves no children
     const int in_fd = open("/dev/null", O_RDONLY);
     const int out_fd = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0644);
     const int err_fd = open(err, O_WRONLY | O_CREAT | O_TRUNC, 0644);

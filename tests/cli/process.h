@@ -26,6 +26,7 @@ public:
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
+    [[nodiscard]] pid_t id() const { return child_; }
     void send(int signal) const;
     [[nodiscard]] bool running();
     Finished wait();

@@ -6,7 +6,7 @@
 namespace lumenline::cli_test {
 namespace {
 
-constexpr const char* kVerbs[] = {"run", "validate", "model", "browse", "phantom"};
+constexpr const char* kVerbs[] = {"run", "status", "merge", "submit", "validate", "model", "browse", "phantom"};
 
 TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
     const Finished whole = run_lumenline({"--help"}, fresh_folder());
@@ -32,7 +32,7 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
 }
 
 TEST(Usage, HelpStatesTheExitStatus) {
-    for (const char* verb : {"run", "validate", "model", "phantom"})
+    for (const char* verb : {"run", "status", "merge", "submit", "validate", "model", "phantom"})
         EXPECT_NE(run_lumenline({verb, "--help"}, fresh_folder()).out.find("Exit status"), std::string::npos) << verb;
     EXPECT_NE(run_lumenline({"--help"}, fresh_folder()).out.find("Exit status"), std::string::npos);
 }

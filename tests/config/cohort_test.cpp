@@ -31,6 +31,8 @@ void expect_same(const CohortConfig& a, const CohortConfig& b) {
     EXPECT_EQ(a.run.memory_percent, b.run.memory_percent);
     EXPECT_EQ(a.run.memory_bytes, b.run.memory_bytes);
     EXPECT_EQ(a.run.model_timeout, b.run.model_timeout);
+    EXPECT_EQ(a.run.model_memory, b.run.model_memory);
+    EXPECT_EQ(a.run.isolation, b.run.isolation);
     EXPECT_EQ(a.archive.directory, b.archive.directory);
     EXPECT_EQ(a.archive.float32_fields, b.archive.float32_fields);
     ASSERT_EQ(a.tasks.size(), b.tasks.size());
@@ -67,7 +69,8 @@ condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: 
             speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
 centerlines: {refine: none, pairs: all, join: centre, topology: network}
 characterize: false
-run: {threads: 3, models_in_flight: 7, memory: 1.5 GB, model_timeout: 30min}
+run: {threads: 3, models_in_flight: 7, memory: 1.5 GB, model_timeout: 30min, model_memory: 250 MB,
+      isolation: process}
 archive: {directory: ../out, precision: float64})"));
     const ModelTask& task = config.tasks.at(0);
     EXPECT_EQ(task.identity.length_unit, "mm");
@@ -91,6 +94,8 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(config.run.models_in_flight, 7);
     EXPECT_EQ(config.run.memory_bytes, 1.5e9);
     EXPECT_EQ(config.run.model_timeout, 1800);
+    EXPECT_EQ(config.run.model_memory, 250e6);
+    EXPECT_EQ(config.run.isolation, Isolation::kProcess);
     EXPECT_EQ(config.archive.directory, folder.path() / "../out");
     EXPECT_FALSE(config.archive.float32_fields);
 }
@@ -118,6 +123,8 @@ TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
     EXPECT_EQ(folder.load(with("run: {model_timeout: 90 s}")).run.model_timeout, 90);
     EXPECT_EQ(folder.load(with("run: {model_timeout: 2h}")).run.model_timeout, 7200);
     EXPECT_EQ(folder.load(with("run: {model_timeout: off}")).run.model_timeout, 0);
+    EXPECT_EQ(folder.load(with("run: {model_memory: off}")).run.model_memory, 0);
+    EXPECT_EQ(folder.load(with("run: {isolation: none}")).run.isolation, Isolation::kNone);
 }
 
 TEST(Cohort, InletsByRule) {

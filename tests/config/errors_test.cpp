@@ -164,6 +164,8 @@ TEST(ConfigErrors, NumbersArePlainDecimalsWithinLimits) {
         {with("run: {memory: 101%}"), 2, "must be 100% or less"},
         {with("run: {memory: 0%}"), 2, "must be above 0"},
         {with("run: {memory: -1 GB}"), 2, "must be a number and a unit"},
+        {with("run: {model_memory: 10%}"), 2, "must be a number and a unit (MB, GB or TB), not '10%'"},
+        {with("run: {isolation: thread}"), 2, "must be none or process"},
         {with("run: {model_timeout: 30}"), 2, "must be a number and a unit (s, min or h), not '30'"},
         {with("run: {model_timeout: 1..5 h}"), 2, "must be a number and a unit"},
     });
