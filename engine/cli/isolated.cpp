@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -123,6 +124,7 @@ ModelSummary settle(const IsolatedResult& result, const ModelTask& task, const A
         record.options = canonical_text(task);
         record.failure = result.failure;
         record.facts.total_seconds = result.seconds;
+        record.facts.peak_resident_bytes = std::numeric_limits<double>::quiet_NaN();
         return store_model(std::move(record), task, archive).summary;
     }
     ModelSummary summary;
