@@ -174,7 +174,7 @@ void browse(const Request& request, std::ostream& out) {
         print_models(out, list_models(request.archive));
         return;
     }
-    const ArchiveFile file(find_model(request.archive, request.id));
+    const ArchiveFile file = open_model(request.archive, request.id);
     if (request.what == What::kShow) show(file, out);
     if (request.what == What::kTree) print_tree(file, out);
     if (request.what == What::kGet) file.print(request.path, out);

@@ -8,6 +8,7 @@ namespace lumenline::names {
 
 inline constexpr const char* kIndexFile = "cohort.h5";
 inline constexpr const char* kModelLinks = "/models";
+inline constexpr const char* kPackedAttribute = "packed";  ///< models are groups of the file, not links to others
 inline constexpr const char* kModelTable = "/tables/models";
 
 // clang-format off

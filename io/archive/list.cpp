@@ -68,22 +68,24 @@ std::vector<ModelSummary> list_models(const std::filesystem::path& archive) {
     return {read_summary(path)};
 }
 
-std::filesystem::path find_model(const std::filesystem::path& archive, const std::string& id) {
-    const ArchiveFile file(index_or_file(archive));
+ArchiveFile open_model(const std::filesystem::path& archive, const std::string& id) {
+    ArchiveFile file(index_or_file(archive));
     const std::vector<std::string> ids = ids_of(file);
     if (std::find(ids.begin(), ids.end(), id) == ids.end())
         throw UnknownName("the archive '" + archive.string() + "' has no model '" + printable(id) + "'" +
                           nearest_names(id, ids));
-    if (file.format() == names::kModelFormat) return file.file();
+    if (file.format() == names::kModelFormat) return file;
     if (id.empty() || id.find('/') != std::string::npos)
         throw ArchiveError("the index '" + file.file().string() + "' names a model '" + printable(id) +
                            "', which is no file name");
-    std::filesystem::path model = model_path(file.file().parent_path(), id);
+    if (file.attribute("/", names::kPackedAttribute))
+        return ArchiveFile(file.file(), std::string(names::kModelLinks) + "/" + id);
+    const std::filesystem::path model = model_path(file.file().parent_path(), id);
     std::error_code error;
     if (!std::filesystem::exists(model, error))
         throw ArchiveError("the index names the model '" + printable(id) + "' but its file '" + model.string() +
                            "' does not exist: run the cohort again");
-    return model;
+    return ArchiveFile(model);
 }
 
 }  // namespace lumenline

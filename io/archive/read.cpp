@@ -73,7 +73,11 @@ struct ArchiveFile::Impl {
     std::filesystem::path path;
     std::uintmax_t bytes = 0;
     hdf::Handle file;
+    hdf::Handle root;  // of the file, or a model of a packed archive
     std::string format;
+
+    /// Paths from the root, "/surface", as HDF5 wants them from a group.
+    static std::string from_root(const std::string& path) { return "." + path; }
 
     template <class Body>
     auto guarded(Body body) const {
@@ -90,7 +94,7 @@ struct ArchiveFile::Impl {
     }
 
     [[nodiscard]] Values open(const std::string& dataset) const {
-        Values values = Values::dataset(file.get(), dataset);
+        Values values = Values::dataset(root.get(), from_root(dataset));
         values.require_within(bytes);
         return values;
     }
@@ -98,23 +102,24 @@ struct ArchiveFile::Impl {
     [[nodiscard]] std::vector<std::string> attribute_names(const std::string& object) const {
         std::vector<std::string> found;
         hsize_t position = 0;
-        hdf::checked(H5Aiterate_by_name(file.get(), object.c_str(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name,
-                                        &found, H5P_DEFAULT),
+        hdf::checked(H5Aiterate_by_name(root.get(), from_root(object).c_str(), H5_INDEX_NAME, H5_ITER_INC, &position,
+                                        collect_name, &found, H5P_DEFAULT),
                      object);
         return found;
     }
 
     [[nodiscard]] std::optional<std::string> attribute(const std::string& object, const std::string& name) const {
-        if (hdf::checked(H5Aexists_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT), object) == 0)
+        if (hdf::checked(H5Aexists_by_name(root.get(), from_root(object).c_str(), name.c_str(), H5P_DEFAULT), object) ==
+            0)
             return std::nullopt;
-        const Values values = Values::attribute(file.get(), object, name);
+        const Values values = Values::attribute(root.get(), from_root(object), name);
         return joined(values.texts(0, values.rows()), ", ");
     }
 
     [[nodiscard]] std::vector<std::pair<std::string, H5O_type_t>> objects() const {
         Collected collected;
         const herr_t status =
-            H5Ovisit2(file.get(), H5_INDEX_NAME, H5_ITER_INC, collect_object, &collected, H5O_INFO_BASIC);
+            H5Ovisit2(root.get(), H5_INDEX_NAME, H5_ITER_INC, collect_object, &collected, H5O_INFO_BASIC);
         if (collected.out_of_memory) throw std::bad_alloc();
         hdf::checked(status, "its tree of groups");
         for (auto& [name, type] : collected.objects) {
@@ -137,7 +142,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
     return text.append(joined(lengths, ", ")).append(")");
 }
 
-ArchiveFile::ArchiveFile(const std::filesystem::path& file) : impl_(std::make_unique<Impl>()) {
+ArchiveFile::ArchiveFile(const std::filesystem::path& file, const std::string& root) : impl_(std::make_unique<Impl>()) {
     impl_->path = file;
     std::error_code error;
     impl_->bytes = std::filesystem::file_size(file, error);
@@ -145,6 +150,8 @@ ArchiveFile::ArchiveFile(const std::filesystem::path& file) : impl_(std::make_un
     impl_->guarded([&] {
         impl_->file = hdf::Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, hdf::file_access().get()), H5Fclose,
                                   "no complete HDF5 file");
+        impl_->root =
+            hdf::Handle(H5Gopen2(impl_->file.get(), root.c_str(), H5P_DEFAULT), H5Gclose, "the group " + root);
         impl_->format = impl_->attribute("/", "format").value_or("");
         if (impl_->format != names::kModelFormat && impl_->format != names::kCohortFormat)
             throw hdf::Error("its attribute 'format' is '" + impl_->format + "', not '" +
@@ -170,8 +177,9 @@ bool ArchiveFile::has(const std::string& path) const {
     return impl_->guarded([&] {
         // H5Lexists fails, rather than say no, where a group on the way does not exist.
         for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1))
-            if (H5Lexists(impl_->file.get(), path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-        return path == "/" || H5Lexists(impl_->file.get(), path.c_str(), H5P_DEFAULT) > 0;
+            if (H5Lexists(impl_->root.get(), Impl::from_root(path.substr(0, end)).c_str(), H5P_DEFAULT) <= 0)
+                return false;
+        return path == "/" || H5Lexists(impl_->root.get(), Impl::from_root(path).c_str(), H5P_DEFAULT) > 0;
     });
 }
 
@@ -213,7 +221,7 @@ std::vector<ArchiveNode> ArchiveFile::nodes() const {
         for (const auto& [path, type] : impl_->objects()) {
             ArchiveNode node{path, type == H5O_TYPE_GROUP, "", {}, "", ""};
             if (type == H5O_TYPE_DATASET) {
-                const Values values = Values::dataset(impl_->file.get(), path);
+                const Values values = Values::dataset(impl_->root.get(), Impl::from_root(path));
                 node.type = values.type();
                 node.shape = values.shape();
                 node.units = impl_->attribute(path, "units").value_or("");
@@ -256,7 +264,7 @@ void ArchiveFile::Impl::print_attribute(const std::string& object, const std::st
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw UnknownName("'" + printable(object) + "' of '" + path.string() + "' has no attribute '" +
                           printable(name) + "'" + nearest_names(name, known));
-    print_values(Values::attribute(file.get(), object, name), out);
+    print_values(Values::attribute(root.get(), from_root(object), name), out);
 }
 
 void ArchiveFile::print(const std::string& path_or_attribute, std::ostream& out) const {

@@ -37,7 +37,8 @@ class ArchiveFile {
 public:
     /// @throws UnknownName if there is no such file; ArchiveError if it is no HDF5 file, is
     ///         truncated, is not of ours, or is of a newer format
-    explicit ArchiveFile(const std::filesystem::path& file);
+    /// @param root  the group that stands for the root: "/models/<id>" of a packed archive is a model's file
+    explicit ArchiveFile(const std::filesystem::path& file, const std::string& root = "/");
     ~ArchiveFile();
     ArchiveFile(ArchiveFile&&) noexcept;
     ArchiveFile& operator=(ArchiveFile&&) = delete;
@@ -85,9 +86,9 @@ std::vector<ModelSummary> list_models(const std::filesystem::path& archive);
 /// @throws ArchiveError; UnknownName with the nearest names if there is no such table
 DataTable read_data_table(const std::filesystem::path& archive, const std::string& table);
 
-/// File of the model `id` of an archive.
+/// The record of the model `id` of an archive: its file, or its group of a packed one.
 /// @throws ArchiveError; UnknownName with the nearest ids if the archive has no such model
-std::filesystem::path find_model(const std::filesystem::path& archive, const std::string& id);
+ArchiveFile open_model(const std::filesystem::path& archive, const std::string& id);
 
 /// "; the nearest names are 'a', 'b'": the up to three of `names` with the least edit distance to
 /// `wanted`, control characters as '?'. Empty if there are no names.

@@ -212,7 +212,7 @@ TEST(Damage, IdThatLeadsOutOfTheArchiveIsNotFollowed) {
     for (std::size_t at = 0; (at = bytes.find("aaaaaa", at)) != std::string::npos;) bytes.replace(at, 6, "../../");
     write_bytes(directory / "cohort.h5", bytes);
     try {
-        find_model(directory, "../../");
+        open_model(directory, "../../");
         FAIL();
     } catch (const ArchiveError& error) {
         EXPECT_NE(std::string(error.what()).find("no file name"), std::string::npos) << error.what();
