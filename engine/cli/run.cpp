@@ -167,15 +167,19 @@ private:
         finished_.emplace(summary.identity.id, std::move(summary));
     }
 
-    /// Rows in the cohort's order: this run's models, and files of earlier runs. A shard leaves the index to `merge`,
-    /// since others write beside it.
+    /// Rows in the cohort's order: this run's models, and files of earlier runs, by the index that stands where they
+    /// have not changed since. A shard leaves the index to `merge`, since others write beside it.
     void write_rows() {
         rows_.clear();
         const bool is_shard = shard_.count > 1;
         const std::vector<const ModelTask*> shown = is_shard ? tasks_ : select_tasks(config_, {});
+        const std::map<std::string, ModelSummary> unchanged = read_unchanged_rows(config_.archive.directory);
         for (const ModelTask* task : shown) {
+            const auto known = unchanged.find(task->identity.id);
             if (const auto found = finished_.find(task->identity.id); found != finished_.end())
                 rows_.push_back(found->second);
+            else if (known != unchanged.end() && !known->second.failure)
+                rows_.push_back(with_labels(known->second, *task));
             else if (std::optional<ModelSummary> row = index_row(config_.archive, *task))
                 rows_.push_back(std::move(*row));
         }

@@ -49,6 +49,11 @@ struct Status {
     double seconds_left = 0;       ///< of work, in one thread
 };
 
+ModelState state_of(const ModelSummary& row) {
+    return {row.identity.id, row.status, row.identity.source_sha256, row.identity.inputs_sha256,
+            row.failure,     row.seconds};
+}
+
 /// Why a model has no result that stands, as far as its file tells; empty = it has one.
 std::string pending_reason(const CohortConfig& config, const ModelTask& task, const std::optional<ModelState>& state) {
     if (!state) return "no file yet";
@@ -74,14 +79,16 @@ Status read_status(const CohortConfig& config) {
     Status status;
     std::vector<const ModelTask*> left, done;
     double seconds_of_done = 0;
-    const std::map<std::string, ModelState> indexed = read_indexed_states(config.archive.directory);
+    const std::map<std::string, ModelSummary> unchanged = read_unchanged_rows(config.archive.directory);
     for (const ModelTask& task : config.tasks) {
         const std::string& id = task.identity.id;
         std::optional<ModelState> state;
         std::string reason;
         try {
-            const auto known = indexed.find(id);
-            state = known != indexed.end() ? known->second : read_state(model_path(config.archive.directory, id));
+            const auto known = unchanged.find(id);
+            state = known != unchanged.end() && !known->second.failure
+                        ? state_of(known->second)
+                        : read_state(model_path(config.archive.directory, id));
             reason = pending_reason(config, task, state);
         } catch (const ArchiveError& error) {
             reason = fmt::format("its file cannot be used: {}", error.what());

@@ -6,11 +6,13 @@
 //
 // Admission is a serial node: each model that leaves gives back what it took, so no token can be lost between a
 // failure and its release; and when its surface is read, and again when it is conditioned, what the model takes is put
-// right. The sources of a model count
-// down; the last one sends it on. Bodies never throw: an exception that leaves a node cancels the graph, and with it
-// every other model. The graph is built inside its arena, or it would run on one thread.
+// right. What it sends to `load` says only that there is work, which is then taken from a queue in the order of
+// admission: a thread runs its newest task first, and a large model admitted early would otherwise be begun last. The
+// sources of a model count down; the last one sends it on. Bodies never throw: an exception that leaves a node cancels
+// the graph, and with it every other model. The graph is built inside its arena, or it would run on one thread.
 #include "engine/schedule/run_models.h"
 
+#include <tbb/concurrent_queue.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/flow_graph.h>
 #include <tbb/info.h>
@@ -48,6 +50,9 @@ struct Release {
     double bytes = 0;   ///< that become free
 };
 
+/// One more admitted model is to be loaded.
+struct Begin {};
+
 using JobPtr = std::shared_ptr<AdmittedJob>;
 using SourceOfJob = std::pair<JobPtr, std::size_t>;
 
@@ -84,7 +89,7 @@ public:
           report_(report),
           queue_(needs_of(tasks, options), in_flight, options.memory),
           admission_(graph_, flow::serial, [this](const Release& r, auto& ports) { admit(r, ports); }),
-          load_(graph_, flow::unlimited, [this](const JobPtr& job) { return step(job, [&] { load(*job); }); }),
+          load_(graph_, flow::unlimited, [this](const Begin&) { return load_next(); }),
           condition_(graph_, flow::unlimited,
                      [this](const JobPtr& job) { return step(job, [&] { condition(*job); }); }),
           voronoi_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->build_complex(); }); }),
@@ -123,7 +128,7 @@ public:
     }
 
 private:
-    using AdmissionNode = flow::multifunction_node<Release, std::tuple<JobPtr>>;
+    using AdmissionNode = flow::multifunction_node<Release, std::tuple<Begin>>;
     using FanOut = flow::multifunction_node<JobPtr, std::tuple<SourceOfJob, JobPtr>>;
     using Solver = flow::multifunction_node<SourceOfJob, std::tuple<JobPtr>>;
     using StageNode = flow::function_node<JobPtr, JobPtr>;
@@ -161,13 +166,19 @@ private:
                                                            ModelLimits{options_.model_timeout, options_.model_memory});
             job->bytes = admitted->bytes;
             handed_on(job.get());
-            std::get<0>(ports).try_put(job);
+            admitted_.push(job);
+            std::get<0>(ports).try_put({});
         }
     }
 
-    void load(AdmittedJob& job) {
-        job.load(loader_);
-        correct_memory(job);
+    /// Loads the model that was admitted first.
+    JobPtr load_next() {
+        JobPtr job;
+        if (!admitted_.try_pop(job)) throw std::logic_error("internal error: more models are begun than are admitted");
+        return step(job, [&] {
+            job->load(loader_);
+            correct_memory(*job);
+        });
     }
 
     void condition(AdmittedJob& job) {
@@ -232,12 +243,14 @@ private:
     const Sink& sink_;
     RunReport& report_;
     Admission queue_;  // of the admission's node
+    tbb::concurrent_queue<JobPtr> admitted_;
     std::exception_ptr sink_failure_;
     std::atomic<bool> sink_failed_{false};
     tbb::enumerable_thread_specific<EikonalWorkspace> workspaces_;
     flow::graph graph_;
     AdmissionNode admission_;
-    StageNode load_, condition_, voronoi_, endpoints_;
+    flow::function_node<Begin, JobPtr> load_;
+    StageNode condition_, voronoi_, endpoints_;
     FanOut fan_out_;
     Solver eikonal_;
     StageNode trace_, characterize_;

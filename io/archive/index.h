@@ -46,11 +46,10 @@ struct ModelState {
     double seconds = 0;  ///< of work
 };
 
-/// States by id, from the index alone, of the models that did not fail and whose files have the size and the time stamp
-/// that they had when the index was made. What is missing here is for read_state. Empty if there is no index, or it is
-/// of no use.
+/// Rows of the index by id, as read_index gives them, of the models whose files have the size and the time stamp that
+/// they had when it was made. What is missing here is for read_summary. Empty if there is no index, or it is of no use.
 /// @cost   one look at each file's entry in its folder; no model file is opened
-std::map<std::string, ModelState> read_indexed_states(const std::filesystem::path& archive_dir);
+std::map<std::string, ModelSummary> read_unchanged_rows(const std::filesystem::path& archive_dir);
 
 /// The state of a model from the attributes of its file alone; empty if there is no file.
 /// @throws ArchiveError if it is no model file, or damaged

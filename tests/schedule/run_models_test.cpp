@@ -215,17 +215,19 @@ TEST(RunModels, AModelThatWaitsForMemoryIsPassedByFewSmallerOnes) {
     EXPECT_LE(at, 1 + 4) << "as many as may be in flight";
 }
 
-TEST(RunModels, ModelsStartInTheOrderGiven) {
-    std::vector<std::string> order;
-    ScheduleOptions options;
-    options.threads = 1;
-    options.models_in_flight = 1;
-    const Loader loader = [&](const ModelTask& t) {
-        order.push_back(t.identity.id);
-        return TriangleSoup{};
-    };
-    run_models(cohort(5), options, loader, [](ModelRecord&&) {});
-    EXPECT_EQ(order, (std::vector<std::string>{"tube0", "tube1", "tube2", "tube3", "tube4"}));
+TEST(RunModels, ModelsStartInTheOrderGivenHoweverManyAreInFlight) {
+    for (const int in_flight : {1, 3, 10}) {
+        std::vector<std::string> order;
+        ScheduleOptions options;
+        options.threads = 1;
+        options.models_in_flight = in_flight;
+        const Loader loader = [&](const ModelTask& t) {
+            order.push_back(t.identity.id);
+            return TriangleSoup{};
+        };
+        run_models(cohort(5), options, loader, [](ModelRecord&&) {});
+        EXPECT_EQ(order, (std::vector<std::string>{"tube0", "tube1", "tube2", "tube3", "tube4"})) << in_flight;
+    }
 }
 
 TEST(RunModels, ModelBeyondItsTimeFailsAtTheNextStageAndTheOthersComplete) {
