@@ -23,8 +23,9 @@ struct PathLines {
 };
 
 /// A loop of the lumen: a handle, around both sides of which the front from one source runs, to meet itself behind it.
+/// Where lines cover loops and a part has several sources, also a way from one to another, on which their fronts meet.
 struct LumenLoop {
-    EndpointId source;
+    EndpointId source;       ///< of its first side; that of the second is its line's
     Vec3 point;              ///< where the two sides meet; where lines cover the loop, their common end [length]
     double ball_radius = 0;  ///< of the Voronoi vertex where the fronts meet [length]
     double time = 0;         ///< when they meet there, as ArrivalField::time

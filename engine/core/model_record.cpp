@@ -65,6 +65,7 @@ ModelSummary summarize(const ModelRecord& record) {
         summary.sites = record.surface->site_count();
         summary.triangles = record.surface->triangles.size();
         summary.diagonal = record.surface->diagonal;
+        summary.genus = static_cast<std::size_t>(record.surface->genus);
     }
     if (record.complex) {
         summary.voronoi_vertices = record.complex->vertex_count();
@@ -75,6 +76,7 @@ ModelSummary summarize(const ModelRecord& record) {
             ++(e.role == EndpointRole::kInlet ? summary.inlets : summary.outlets);
     if (record.centerlines) {
         summarize_lines(*record.centerlines, summary);
+        summary.loops = record.centerlines->loops.size();
         const double radius = median_radius(*record.centerlines);
         if (record.surface && radius > 0) summary.edge_over_radius = record.surface->median_edge / radius;
     }

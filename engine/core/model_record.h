@@ -82,6 +82,8 @@ struct ModelSummary {
     double length = 0;  ///< sum of the lines' lengths; a stretch that lines share counts for each [length]
     double radius_min = 0, radius_mean = 0, radius_max = 0;  ///< along all lines, mean weighted by arc length [length]
     AreaStatistics geodesic_distance, euclidean_distance, normalized_tangency_deviation;  ///< over the wall; NaN = none
+    std::size_t genus = 0;            ///< handles of the surface
+    std::size_t loops = 0;            ///< of the lumen that fronts run around, covered by lines or not
     std::size_t unreached_sites = 0;  ///< of the wall, without a centerline
     double diagonal = 0;              ///< of the wall's bounding box; 0 = no surface was made [length]
     double edge_over_radius = 0;      ///< the wall's median edge over the lines' median radius; 0 = no line

@@ -46,7 +46,7 @@ bool is_zero(const CycleClass& sum) {
 }
 
 void add(CycleClass& sum, std::span<const std::uint64_t> other) {
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] ^= other[i];
+    for (std::size_t i = 0; i < other.size(); ++i) sum[i] ^= other[i];
 }
 
 void ClassSpan::reduce(CycleClass& sum) const {

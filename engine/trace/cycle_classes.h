@@ -31,6 +31,7 @@ private:
 };
 
 [[nodiscard]] bool is_zero(const CycleClass& sum);
+/// Adds a class of at most as many words; words beyond are of the caller's own.
 void add(CycleClass& sum, std::span<const std::uint64_t> other);
 
 /// Which closed ways over the complex can be pulled together over its polygons, and which of the others go around

@@ -6,6 +6,11 @@
 // gives the shortest basis of all cycles (Erickson and Whittlesey 2005). Where its way leaves the lumen, as polygons do
 // where the sampling is coarse, the next edges of the same class are tried.
 //
+// Where there are several sources, a class has a bit for each of them beside those of the cycles, which stands in the
+// ways from it: a way from one source to another is then closed, as if the sources were one point, and independent of
+// what goes around handles. A vertex belongs to the source of its way through the tree; where fronts of two sources
+// meet, that may be the one that comes a little later.
+//
 // Chords make crooked lines. The sides are traced back as any other line; near where fronts meet, such a trace may
 // choose the other side, which its class tells: it is then begun farther down the tree.
 #include "engine/trace/loops.h"
@@ -65,11 +70,12 @@ bool in_step(std::span<const Ball> a, std::span<const Ball> b) {
 class LoopFinder {
 public:
     LoopFinder(const VoronoiComplex& complex, const Endpoints& endpoints,
-               std::span<const std::shared_ptr<const ArrivalField>> fields,
+               std::span<const std::shared_ptr<const ArrivalField>> fields, Fronts fronts,
                const std::function<bool(const ComplexPath&)>& inside, StageContext& context)
         : complex_(complex),
           endpoints_(endpoints),
           fields_(fields),
+          join_sources_(fronts == Fronts::kOfAll && fields.size() > 1),
           inside_(inside),
           context_(context),
           classes_(complex),
@@ -77,8 +83,8 @@ public:
           parent_(complex.vertex_count()),
           way_(complex.vertex_count()) {}
 
-    std::vector<LoopPath> run() {
-        if (classes_.count() == 0) return {};
+    LoopSearch run() {
+        if (classes_.count() == 0 && !join_sources_) return {};
         grow_tree();
         std::map<CycleClass, int> tried;
         for (Meeting& m : meetings()) {
@@ -87,11 +93,13 @@ public:
             if (is_zero(m.cycle) || ++tried[m.cycle] > kMostTries) continue;
             if (settles(m)) settled_.insert(std::move(m.cycle));
         }
-        return std::move(loops_);
+        const std::size_t between = count_between_sources();
+        return {std::move(loops_), between};
     }
 
 private:
     static constexpr std::uint32_t kNoField = std::numeric_limits<std::uint32_t>::max();
+    static constexpr std::size_t kWordBits = 64;
 
     struct Meeting {
         double time = 0;
@@ -108,18 +116,27 @@ private:
         return segment_cost(distance(complex_.vertices[at(a)], complex_.vertices[at(b)]),
                             complex_.ball_radius[at(a)] + complex_.ball_radius[at(b)]);
     }
-    [[nodiscard]] const Endpoint& source_of(VoronoiVertexId v) const {
-        return endpoints_[at(fields_[field_[at(v)]]->source)];
+    [[nodiscard]] EndpointId source_id(VoronoiVertexId v) const { return fields_[field_[at(v)]]->source; }
+    [[nodiscard]] const Endpoint& source_of(VoronoiVertexId v) const { return endpoints_[at(source_id(v))]; }
+
+    /// Class of the way that has not left its source yet.
+    [[nodiscard]] CycleClass way_at_source(std::uint32_t field) const {
+        CycleClass way = classes_.zero();
+        if (!join_sources_) return way;
+        way.resize(way.size() + fields_.size() / kWordBits + 1, 0);
+        way[classes_.zero().size() + field / kWordBits] |= std::uint64_t{1} << (field % kWordBits);
+        return way;
     }
 
     void grow_tree() {
         std::vector<std::uint32_t> order;
         for (std::uint32_t f = 0; f < fields_.size(); ++f)
-            for (std::uint32_t v = 0; v < field_.size(); ++v)
-                if (field_[v] == kNoField && fields_[f]->time[v] < kInfinity) {
+            for (std::uint32_t v = 0; v < field_.size(); ++v) {
+                if (!(fields_[f]->time[v] < kInfinity)) continue;
+                if (field_[v] == kNoField) order.push_back(v);
+                if (field_[v] == kNoField || (join_sources_ && fields_[f]->time[v] < time(VoronoiVertexId(v))))
                     field_[v] = f;
-                    order.push_back(v);
-                }
+            }
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) {
             const double ta = time(VoronoiVertexId(a)), tb = time(VoronoiVertexId(b));
             return ta != tb ? ta < tb : a < b;
@@ -136,7 +153,7 @@ private:
     /// anchor come from the anchor, whose place in the tree its nearest vertex stands for.
     void join_tree(VoronoiVertexId v, const std::vector<char>& done) {
         const Endpoint& source = source_of(v);
-        way_[at(v)] = classes_.zero();
+        way_[at(v)] = way_at_source(field_[at(v)]);
         if (v == source.anchor_vertex) return;
         PolygonId through;
         double best = kInfinity;
@@ -161,7 +178,10 @@ private:
         }
         if (from_anchor) parent_[at(v)] = source.anchor_vertex;
         if (through.is_none()) return;
-        if (!from_anchor) way_[at(v)] = way_[at(parent_[at(v)])];
+        if (!from_anchor) {
+            way_[at(v)] = way_[at(parent_[at(v)])];
+            field_[at(v)] = field_[at(parent_[at(v)])];
+        }
         classes_.add_way(through, parent_[at(v)], v, way_[at(v)]);
     }
 
@@ -170,7 +190,7 @@ private:
         std::vector<Meeting> found;
         for (CycleClasses::Edge e = 0; e < classes_.edge_count(); ++e) {
             const auto [a, b] = classes_.ends(e);
-            if (field_[at(a)] == kNoField || field_[at(a)] != field_[at(b)]) continue;
+            if (field_[at(a)] == kNoField || field_[at(b)] == kNoField) continue;
             CycleClass cycle = way_[at(a)];
             add(cycle, way_[at(b)]);
             add(cycle, classes_.of_edge(e));
@@ -191,8 +211,11 @@ private:
         there.inner.push_back({near, near, 0});
         there.end = complex_.vertices[at(far)];
         there.end_radius = complex_.ball_radius[at(far)];
-        if (in_step(balls_along(complex_, there), balls_along(complex_, back))) return true;
-        LoopPath loop{fields_[field_[at(far)]]->source, far, m.time, std::move(there)};
+        if (in_step(balls_along(complex_, there), balls_along(complex_, back))) {
+            side_by_side_.push_back({source_id(near), source_id(far)});
+            return true;
+        }
+        LoopPath loop{{source_id(near), source_id(far)}, far, m.time, std::move(there)};
         loop.path.inner.push_back({far, far, 0});
         loop.path.inner.insert(loop.path.inner.end(), back.inner.rbegin(), back.inner.rend());
         loop.path.end = back.start;
@@ -200,6 +223,21 @@ private:
         if (!inside_(loop.path)) return false;
         if (!repeats_another(loop)) loops_.push_back(std::move(loop));
         return true;
+    }
+
+    /// How many of the loops join sources to others that no loop before them joined; those whose balls overlap are one.
+    [[nodiscard]] std::size_t count_between_sources() const {
+        std::vector<EndpointId> group(endpoints_.size());
+        for (std::size_t e = 0; e < group.size(); ++e) group[e] = EndpointId(e);
+        const auto join = [&](const std::array<EndpointId, 2>& sources) {
+            const EndpointId a = group[at(sources[0])], b = group[at(sources[1])];
+            std::replace(group.begin(), group.end(), b, a);
+            return a != b;
+        };
+        for (const auto& sources : side_by_side_) join(sources);
+        std::size_t between = 0;
+        for (const LoopPath& loop : loops_) between += join(loop.sources) ? 1 : 0;
+        return between;
     }
 
     /// Whether the loop runs along another one, the other side of a hole in a sheet.
@@ -277,14 +315,16 @@ private:
     const VoronoiComplex& complex_;
     const Endpoints& endpoints_;
     std::span<const std::shared_ptr<const ArrivalField>> fields_;
+    const bool join_sources_;
     const std::function<bool(const ComplexPath&)>& inside_;
     StageContext& context_;
     CycleClasses classes_;
-    std::vector<std::uint32_t> field_;     // per vertex: the first that reaches it
+    std::vector<std::uint32_t> field_;     // per vertex: the one it belongs to
     std::vector<VoronoiVertexId> parent_;  // per vertex: the one before on its way
     std::vector<CycleClass> way_;          // per vertex: class of its way
     ClassSpan settled_;                    // of the cycles that are loops, or known to be none
     std::vector<LoopPath> loops_;
+    std::vector<std::array<EndpointId, 2>> side_by_side_;  // sources between which balls overlap all the way
 };
 
 std::string places(const std::vector<LumenLoop>& loops) {
@@ -296,33 +336,38 @@ std::string places(const std::vector<LumenLoop>& loops) {
 
 }  // namespace
 
-std::vector<LoopPath> find_loops(const VoronoiComplex& complex, const Endpoints& endpoints,
-                                 std::span<const std::shared_ptr<const ArrivalField>> fields,
-                                 const std::function<bool(const ComplexPath&)>& inside, StageContext& context) {
-    return LoopFinder(complex, endpoints, fields, inside, context).run();
+LoopSearch find_loops(const VoronoiComplex& complex, const Endpoints& endpoints,
+                      std::span<const std::shared_ptr<const ArrivalField>> fields, Fronts fronts,
+                      const std::function<bool(const ComplexPath&)>& inside, StageContext& context) {
+    return LoopFinder(complex, endpoints, fields, fronts, inside, context).run();
 }
 
 LumenLoop loop_of(const VoronoiComplex& complex, const LoopPath& path) {
-    return {path.source, complex.vertices[at(path.meeting)], complex.ball_radius[at(path.meeting)], path.time};
+    return {path.sources[0], complex.vertices[at(path.meeting)], complex.ball_radius[at(path.meeting)], path.time};
 }
 
-void report_loops(const Surface& surface, const std::vector<LumenLoop>& loops, bool covered, StageContext& context) {
-    const auto count = static_cast<double>(loops.size()), genus = static_cast<double>(surface.genus);
-    const std::string found = "the lumen has " + counted(loops.size(), "loop") + " (genus " +
-                              std::to_string(surface.genus) + "); fronts meet at " + places(loops);
+void report_loops(const Surface& surface, const std::vector<LumenLoop>& loops, std::size_t between_sources,
+                  bool covered, StageContext& context) {
+    const auto count = static_cast<double>(loops.size());
+    const double expected = surface.genus + static_cast<double>(between_sources);
+    std::string genus = "genus " + std::to_string(surface.genus);
+    if (between_sources > 0) genus += ", and " + std::to_string(between_sources) + " from inlet to inlet";
+    const std::string found =
+        "the lumen has " + counted(loops.size(), "loop") + " (" + genus + "); fronts meet at " + places(loops);
     if (covered && !loops.empty())
-        context.note("loops_covered", found + ": two lines each meet there", count, genus);
+        context.note("loops_covered", found + ": two lines each meet there", count, expected);
     else if (!loops.empty())
         context.warn("loop_not_covered",
                      found +
                          ": lines to the outlets alone leave a side of a loop without a line; "
                          "`topology: network` covers both",
-                     count, genus);
-    if (count != genus)
+                     count, expected);
+    if (count != expected)
         context.warn("loops_unlike_genus",
-                     counted(loops.size(), "loop") + " found in a lumen of genus " + std::to_string(surface.genus) +
-                         ": handles smaller than the sampling tells apart, or in parts that no front reached",
-                     count, genus);
+                     counted(loops.size(), "loop") + " found in a lumen of " + genus +
+                         ": handles smaller than the sampling tells apart, or in parts that no front reached; look for "
+                         "small handles of the segmentation and vessels that touch",
+                     count, expected);
 }
 
 }  // namespace lumenline

@@ -1,6 +1,6 @@
 // One line after the other: trace back, relax, cut at the planes of the openings, check, append.
 //
-// A loop is relaxed as one path, from the source around it and back to the source, and parted where the fronts met, so
+// A loop is relaxed as one path, from the source around it and back to the source or on to another one, and parted where the fronts met, so
 // that both sides end in the same point. Refined, each side goes on around the loop for some radii and is cut at the
 // plane where the other one is: so the point where they meet lies on the axis, and they pass into each other smoothly.
 #include "engine/trace/trace.h"
@@ -92,12 +92,11 @@ public:
             if (both_inside()) note_not_relaxed(name);
         }
         if (!is_usable(sides[0], name) || !is_usable(sides[1], name)) return;
-        const Endpoint& from = endpoints_[at(path.source)];
-        const std::array<FinalLine, 2> lines = final_sides(sides, from, name);
+        const std::array<FinalLine, 2> lines = final_sides(sides, path.sources, name);
         lines_.loops.back().point = lines[0].line.points.back();
         for (std::size_t i = 0; i < 2; ++i) {
             note_gaps(sides[i]);
-            append(path.source, {}, id, sides[i], joined(lines[i], from, {}, name));
+            append(path.sources[i], {}, id, sides[i], joined(lines[i], endpoints_[at(path.sources[i])], {}, name));
         }
     }
 
@@ -190,7 +189,7 @@ private:
         return line;
     }
 
-    /// The two sides of a loop, each from the source to where they meet.
+    /// The two sides of a loop, each from its source to where they meet.
     std::array<Candidate, 2> make_sides(const LoopPath& loop, Refinement refine) {
         ComplexPath around = loop.path;
         smooth(around, refine);
@@ -199,14 +198,15 @@ private:
             return distance(position(complex_, a), meeting) < distance(position(complex_, b), meeting);
         };
         std::array<Candidate, 2> sides;
-        for (Candidate& side : sides) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            Candidate& side = sides[i];
             const auto middle = std::min_element(around.inner.begin(), around.inner.end(), nearer);
             ComplexPath path{around.start,
                              position(complex_, *middle),
                              around.start_radius,
                              ball_radius(complex_, *middle),
                              {around.inner.begin(), middle}};
-            side = make_candidate(path, stop_at(endpoints_[at(loop.source)]), {});
+            side = make_candidate(path, stop_at(endpoints_[at(loop.sources[i])]), {});
             side.places.back() = *middle;
             ComplexPath onward{
                 path.end, around.end, path.end_radius, around.end_radius, {middle + 1, around.inner.end()}};
@@ -258,12 +258,12 @@ private:
     }
 
     /// Both sides of a loop, refined if both can be.
-    std::array<FinalLine, 2> final_sides(const std::array<Candidate, 2>& sides, const Endpoint& from,
-                                         const std::string& name) {
+    std::array<FinalLine, 2> final_sides(const std::array<Candidate, 2>& sides,
+                                         const std::array<EndpointId, 2>& sources, const std::string& name) {
         if (refiner_) {
             std::string why;
-            auto first = refine_side(sides[0], from, why);
-            auto second = first ? refine_side(sides[1], from, why) : std::nullopt;
+            auto first = refine_side(sides[0], endpoints_[at(sources[0])], why);
+            auto second = first ? refine_side(sides[1], endpoints_[at(sources[1])], why) : std::nullopt;
             if (second) {
                 if (end_together(*first, *second, verifier_)) return {*std::move(first), *std::move(second)};
                 why = "not meet the other side of its loop";
@@ -376,10 +376,13 @@ Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& comp
         else if (options.pairs == Pairs::kNearest)
             collector.add(*nearest, target);
     }
-    if (surface.genus > 0) {
+    const bool network = options.topology == Topology::kNetwork;
+    if (surface.genus > 0 || (network && fields.size() > 1)) {
         const auto inside = [&](const ComplexPath& path) { return collector.is_inside(path); };
-        for (const LoopPath& loop : find_loops(complex, endpoints, fields, inside, context)) collector.add(loop);
-        report_loops(surface, collector.loops(), options.topology == Topology::kNetwork, context);
+        const LoopSearch found = find_loops(complex, endpoints, fields, network ? Fronts::kOfAll : Fronts::kOfOneSource,
+                                            inside, context);
+        for (const LoopPath& loop : found.paths) collector.add(loop);
+        report_loops(surface, collector.loops(), found.between_sources, network, context);
     }
     report_unreached_wall(surface, complex, fields, context);
     return collector.finish();

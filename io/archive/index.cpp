@@ -114,6 +114,8 @@ void write_models(Writer& writer, Models models) {
         for (const ModelSummary& model : models) column.push_back(model.*c.quantity.*c.value);
         writer.column(c.field, column);
     }
+    count_column(writer, names::kGenus, models, &ModelSummary::genus);
+    count_column(writer, names::kLoopCount, models, &ModelSummary::loops);
     count_column(writer, names::kUnreached, models, &ModelSummary::unreached_sites);
     write_sizes(writer, models);
     count_column(writer, names::kWarnings, models, &ModelSummary::warnings);

@@ -69,6 +69,9 @@ inline constexpr StatisticsColumn kStatisticsColumns[] = {
     {{"/tables/models/normalized_tangency_deviation_p95", "1", "95th percentile of NTD over the wall, weighted by area; NaN = not characterized"},
      &ModelSummary::normalized_tangency_deviation, &AreaStatistics::p95},
 };
+inline constexpr Field kGenus{"/tables/models/genus", "1", "handles of the conditioned surface"};
+inline constexpr Field kLoopCount{"/tables/models/loops", "1",
+    "loops of the lumen that fronts run around, covered by lines or not"};
 inline constexpr Field kUnreached{"/tables/models/unreached_sites", "1", "sites of the wall with no way to a centerline"};
 inline constexpr Field kDiagonal{"/tables/models/diagonal", "length",
     "of the bounding box of the wall; NaN = no surface was made"};

@@ -30,7 +30,7 @@ inline constexpr Field kLineAbscissa{"/centerlines/path/line_abscissa", "length"
 inline constexpr Field kLoopPoint{"/loops/point", "length", "where the two sides of the loop meet"};
 inline constexpr Field kLoopBallRadius{"/loops/ball_radius", "length", "of the Voronoi vertex where the fronts meet"};
 inline constexpr Field kLoopTime{"/loops/arrival_time", "1", "when the fronts meet there"};
-inline constexpr Field kLoopSource{"/loops/source", "1", "endpoint from which the front runs around it"};
+inline constexpr Field kLoopSource{"/loops/source", "1", "endpoint from which the front of its first line comes"};
 // clang-format on
 
 }  // namespace lumenline::names

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -64,11 +65,18 @@ ModelIdentity read_identity(const ArchiveFile& file) {
     return who;
 }
 
+std::size_t length_of(const ArchiveFile& file, const names::Field& field) {
+    if (!file.has(field.path)) return 0;
+    const std::vector<std::uint64_t> shape = file.shape(field.path);
+    return shape.empty() ? 0 : shape.front();
+}
+
 std::shared_ptr<const Centerlines> read_lines(const ArchiveFile& file) {
     auto lines = std::make_shared<Centerlines>();
     lines->radius = file.numbers(names::kRadius.path);
     lines->abscissa = file.numbers(names::kAbscissa.path);
     lines->source.resize(file.numbers(names::kLineSource.path).size());
+    lines->loops.resize(length_of(file, names::kLoopPoint));
     double last = 0;
     for (const double offset : file.numbers(names::kLineOffsets.path)) {
         if (!(offset >= last) || offset > static_cast<double>(lines->radius.size()))
@@ -122,12 +130,6 @@ Diagnostics read_severities(const ArchiveFile& file) {
     return found;
 }
 
-std::size_t length_of(const ArchiveFile& file, const names::Field& field) {
-    if (!file.has(field.path)) return 0;
-    const std::vector<std::uint64_t> shape = file.shape(field.path);
-    return shape.empty() ? 0 : shape.front();
-}
-
 double only_number(const ArchiveFile& file, const names::Field& field) {
     const std::vector<double> numbers = file.numbers(field.path);
     if (numbers.size() != 1) damaged(file, std::string(field.path) + " is not one number");
@@ -147,6 +149,10 @@ std::shared_ptr<const Surface> read_surface_sizes(const ArchiveFile& file) {
     auto surface = std::make_shared<Surface>();
     surface->diagonal = number("diagonal");
     surface->median_edge = number("median_edge");
+    const double genus = number("genus");
+    if (!(genus >= 0 && genus <= std::numeric_limits<int>::max()))
+        damaged(file, std::string(names::kSurface) + "@genus is not a count");
+    surface->genus = static_cast<int>(genus);
     return surface;
 }
 
@@ -200,9 +206,13 @@ void read_counts(const ArchiveFile& index, std::vector<ModelSummary>& models) {
         {&names::kInlets, &ModelSummary::inlets},
         {&names::kOutlets, &ModelSummary::outlets},
         {&names::kLineCount, &ModelSummary::centerlines},
+        {&names::kGenus, &ModelSummary::genus},
+        {&names::kLoopCount, &ModelSummary::loops},
         {&names::kUnreached, &ModelSummary::unreached_sites},
         {&names::kWarnings, &ModelSummary::warnings}};
     for (const auto& [field, member] : columns) {
+        const bool is_new = field == &names::kGenus || field == &names::kLoopCount;
+        if (is_new && !index.has(field->path)) continue;  // an index of an earlier version
         const auto values = column<double>(index, field->path, models.size());
         for (std::size_t row = 0; row < models.size(); ++row) {
             if (!(values[row] >= 0)) damaged(index, std::string(field->path) + " holds a negative count");

@@ -60,6 +60,13 @@ TEST(Index, ModelsWithoutLinesHaveNoLengths) {
     EXPECT_EQ(index.numbers("/timing/seconds"), (std::vector<double>{2.8, 2.8}));
 }
 
+TEST(Index, HandlesAndLoopsOfEachModel) {
+    const auto directory = sample_archive({sample_record("a"), failed_record("b")}, "loops");
+    const ArchiveFile index(directory / "cohort.h5");
+    EXPECT_EQ(index.numbers("/tables/models/genus").at(0), 1);
+    EXPECT_EQ(index.numbers("/tables/models/loops"), (std::vector<double>{1, 0}));
+}
+
 TEST(Index, LinksLeadToTheModels) {
     const auto directory = sample_archive({sample_record("a")}, "links");
     const hdf::Handle file(H5Fopen((directory / "cohort.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open");

@@ -235,6 +235,7 @@ std::string difference(const ModelSummary& a, const ModelSummary& b) {
     if (differ(a.geodesic_distance, b.geodesic_distance)) return "geodesic distance";
     if (differ(a.euclidean_distance, b.euclidean_distance)) return "euclidean distance";
     if (differ(a.normalized_tangency_deviation, b.normalized_tangency_deviation)) return "tangency deviation";
+    if (a.genus != b.genus || a.loops != b.loops) return "genus or loops";
     if (a.unreached_sites != b.unreached_sites) return "unreached sites";
     return a.seconds == b.seconds ? "" : "seconds";
 }
