@@ -14,8 +14,7 @@ namespace {
 
 // Of the cost: what its sampling at other nodes may change, and the part of the wall's noise that nodes rest within.
 constexpr double kCostRounding = 1e-6, kCostNoise = 0.02;
-constexpr double kMeetingGap = 0.1;  // of the ball radius: between the ends of a loop's two refined sides
-constexpr double kStray = 1.0;       // of the path's ball radius
+constexpr double kStray = 1.0;  // of the path's ball radius
 
 }  // namespace
 
@@ -96,24 +95,6 @@ std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from,
     for (const double s : path.abscissa)
         final.path_to_line.push_back(std::clamp(along(s) - cut_front, 0.0, final.line.abscissa.back()));
     return final;
-}
-
-bool end_together(const FinalLine& first, FinalLine& second, LineVerifier& verifier) {
-    const Vec3 end = first.line.points.back();
-    const std::size_t last = second.line.size() - 1;
-    if (distance(end, second.line.points[last]) > kMeetingGap * first.line.radius.back()) return false;
-    second.line.points[last] = end;
-    second.line.radius[last] = first.line.radius.back();
-    second.line.abscissa[last] = second.line.abscissa[last - 1] + distance(second.line.points[last - 1], end);
-    second.ball_radius[last] = first.ball_radius.back();
-    second.clearance[last] = first.clearance.back();
-    second.radius_error[last] = first.radius_error.back();
-    second.position_error[last] = first.position_error.back();
-    for (double& s : second.path_to_line) s = std::min(s, second.line.abscissa[last]);
-    second.path_to_line.back() = second.line.abscissa[last];
-    Polyline checked = second.line;
-    checked.radius = second.ball_radius;
-    return verifier.check(checked).inside;
 }
 
 }  // namespace lumenline

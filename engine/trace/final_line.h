@@ -56,8 +56,4 @@ FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_
 std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from, const LineStop& to,
                                      MedialRefiner& refiner, LineVerifier& verifier, std::string& why);
 
-/// Lets the second of two lines that meet, the sides of a loop, end in the last point of the first.
-/// @returns false, the second line then of no use, where their ends are apart or it leaves the lumen
-bool end_together(const FinalLine& first, FinalLine& second, LineVerifier& verifier);
-
 }  // namespace lumenline

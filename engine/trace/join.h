@@ -18,4 +18,10 @@ namespace lumenline {
 std::optional<FinalLine> join_centres(const FinalLine& axis, const Endpoint& from, const Endpoint& to,
                                       MedialRefiner* refiner, LineVerifier& verifier);
 
+/// The second of two refined lines that meet, the sides of a loop, bent in the same way to end in the last point of the
+/// first, with its values there.
+/// @returns nothing where their ends are more than a quarter of the radius apart, or the bent line is of no use
+std::optional<FinalLine> end_together(const FinalLine& first, const FinalLine& second, MedialRefiner& refiner,
+                                      LineVerifier& verifier);
+
 }  // namespace lumenline

@@ -265,7 +265,8 @@ private:
             auto first = refine_side(sides[0], endpoints_[at(sources[0])], why);
             auto second = first ? refine_side(sides[1], endpoints_[at(sources[1])], why) : std::nullopt;
             if (second) {
-                if (end_together(*first, *second, verifier_)) return {*std::move(first), *std::move(second)};
+                if (auto met = end_together(*first, *second, *refiner_, verifier_))
+                    return {*std::move(first), *std::move(met)};
                 why = "not meet the other side of its loop";
             }
             note_not_refined(name, why);

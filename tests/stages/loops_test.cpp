@@ -5,122 +5,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 
 #include "engine/core/stage_context.h"
 #include "engine/schedule/run_models.h"
 #include "engine/trace/cycle_classes.h"
+#include "tests/stages/implicit_shape.h"
+#include "tests/stages/network_check.h"
 #include "tests/stages/support.h"
 
 namespace lumenline {
 namespace {
 
 using std::numbers::pi;
-using Distance = std::function<double(Vec3)>;  // to the wall, negative inside
-
 constexpr double kTube = 1, kRing = 4;  // radii of the tubes and of the rings' axes
-
-double tube_around_ring(Vec3 x, Vec3 centre) {
-    const Vec3 d = x - centre;
-    return std::hypot(std::hypot(d.x, d.y) - kRing, d.z) - kTube;
-}
-
-double straight_tube(Vec3 x, Vec3 a, Vec3 b) {
-    const double t = std::clamp(dot(x - a, b - a) / squared_norm(b - a), 0.0, 1.0);
-    return distance(x, lerp(a, b, t)) - kTube;
-}
 
 /// A ring with a stub along -x and one along +y, where the box ends.
 double ring(Vec3 x) {
-    return std::min({tube_around_ring(x, {}), straight_tube(x, {-kRing, 0, 0}, {-20, 0, 0}),
-                     straight_tube(x, {0, kRing, 0}, {0, 20, 0})});
+    return std::min({test::tube_around_ring(x, {}, kRing, kTube),
+                     test::straight_tube(x, {-kRing, 0, 0}, {-20, 0, 0}, kTube),
+                     test::straight_tube(x, {0, kRing, 0}, {0, 20, 0}, kTube)});
 }
 
 /// Two rings that share a stretch of their tubes, with a stub along -x and one along +y.
 constexpr Vec3 kSecond{2 * kRing, 0.4, 0};
 double eight(Vec3 x) {
-    return std::min({tube_around_ring(x, {}), tube_around_ring(x, kSecond),
-                     straight_tube(x, {-kRing, 0, 0}, {-20, 0, 0}),
-                     straight_tube(x, kSecond + Vec3{0, kRing, 0}, kSecond + Vec3{0, 20, 0})});
+    return std::min({test::tube_around_ring(x, {}, kRing, kTube), test::tube_around_ring(x, kSecond, kRing, kTube),
+                     test::straight_tube(x, {-kRing, 0, 0}, {-20, 0, 0}, kTube),
+                     test::straight_tube(x, kSecond + Vec3{0, kRing, 0}, kSecond + Vec3{0, 20, 0}, kTube)});
 }
 
-/// Marching tetrahedra, six to a cube: closed but where the box cuts the lumen.
-class Polygonizer {
-public:
-    Polygonizer(Distance f, Vec3 low, Vec3 high, double step) : f_(std::move(f)), low_(low), step_(step) {
-        for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<int>((high[axis] - low[axis]) / step) + 1;
-    }
-
-    TriangleSoup run() {
-        static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-        for (int k = 0; k + 1 < count_[2]; ++k)
-            for (int j = 0; j + 1 < count_[1]; ++j)
-                for (int i = 0; i + 1 < count_[0]; ++i)
-                    for (const auto& order : kOrders) {
-                        std::array<std::array<int, 3>, 4> corners;
-                        corners.fill({i, j, k});
-                        for (int c = 0; c < 3; ++c)
-                            for (int later = c + 1; later < 4; ++later) ++corners[later][order[c]];
-                        add_tetrahedron(corners);
-                    }
-        return std::move(soup_);
-    }
-
-private:
-    using Corner = std::array<int, 3>;
-
-    [[nodiscard]] Vec3 place(const Corner& c) const {
-        // Sheared a little, so that no symmetry of the shape is one of the grid.
-        const double x = c[0], y = c[1] + 0.013 * c[2], z = c[2] + 0.017 * c[0];
-        return low_ + step_ * Vec3{x, y, z};
-    }
-
-    std::uint32_t vertex(const Corner& inside, const Corner& outside) {
-        const auto [entry, is_new] =
-            vertices_.emplace(std::pair{std::min(inside, outside), std::max(inside, outside)}, soup_.points.size());
-        if (is_new) {
-            const Vec3 a = place(inside), b = place(outside);
-            const double fa = f_(a), fb = f_(b);
-            soup_.points.push_back(lerp(a, b, std::clamp(fa / (fa - fb), 0.15, 0.85)));  // no needles
-        }
-        return static_cast<std::uint32_t>(entry->second);
-    }
-
-    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Vec3 inside) {
-        const Vec3 p = soup_.points[a];
-        if (dot(cross(soup_.points[b] - p, soup_.points[c] - p), inside - p) > 0) std::swap(b, c);
-        soup_.triangles.push_back({a, b, c});
-    }
-
-    void add_tetrahedron(const std::array<Corner, 4>& corners) {
-        std::vector<Corner> in, out;
-        for (const Corner& c : corners) (f_(place(c)) < 0 ? in : out).push_back(c);
-        if (in.empty() || out.empty()) return;
-        if (in.size() == 2) {
-            const std::uint32_t a = vertex(in[0], out[0]), b = vertex(in[0], out[1]), c = vertex(in[1], out[1]),
-                                d = vertex(in[1], out[0]);
-            add_triangle(a, b, c, place(in[0]));
-            add_triangle(a, c, d, place(in[1]));
-            return;
-        }
-        const bool one = in.size() == 1;
-        std::vector<std::uint32_t> corner;
-        for (const Corner& c : one ? out : in) corner.push_back(one ? vertex(in[0], c) : vertex(c, out[0]));
-        add_triangle(corner[0], corner[1], corner[2], place(in[0]));
-    }
-
-    Distance f_;
-    Vec3 low_;
-    double step_;
-    int count_[3] = {};
-    std::map<std::pair<Corner, Corner>, std::size_t> vertices_;
-    TriangleSoup soup_;
-};
-
-TriangleSoup ring_soup() { return Polygonizer(ring, {-9, -6, -1.7}, {6, 9, 1.7}, 0.37).run(); }
-TriangleSoup eight_soup() { return Polygonizer(eight, {-9, -6, -1.7}, {14.5, 9, 1.7}, 0.37).run(); }
+TriangleSoup ring_soup() { return test::polygonized(ring, {-9, -6, -1.7}, {6, 9, 1.7}, 0.37); }
+TriangleSoup eight_soup() { return test::polygonized(eight, {-9, -6, -1.7}, {14.5, 9, 1.7}, 0.37); }
 
 PipelineOptions options_of(Topology topology) {
     PipelineOptions options;
@@ -151,19 +68,10 @@ double turns_of_loop(const Centerlines& lines, std::size_t loop, Vec3 hole) {
     return turns.size() == 2 ? turns[0] - turns[1] : std::nan("");
 }
 
-/// What every network promises: two lines for each loop, which end in its point, within the lumen.
 void expect_closed(const ModelRecord& record) {
-    const Centerlines& lines = *record.centerlines;
-    std::vector<int> ends(lines.loops.size(), 0);
-    for (std::size_t l = 0; l < lines.line_count(); ++l) {
-        EXPECT_NE(lines.loop[l].is_none(), lines.target[l].is_none());
-        if (lines.loop[l].is_none()) continue;
-        ++ends.at(at(lines.loop[l]));
-        EXPECT_EQ(line_points(lines, l).back(), lines.loops[at(lines.loop[l])].point);
-        EXPECT_EQ(lines.source[l], lines.loops[at(lines.loop[l])].source);
-    }
-    EXPECT_EQ(ends, std::vector<int>(lines.loops.size(), 2));
-    EXPECT_GT(*std::min_element(lines.clearance.begin(), lines.clearance.end()), 0.7 * kTube);
+    EXPECT_EQ(test::network_fault(*record.centerlines), "");
+    EXPECT_GT(*std::min_element(record.centerlines->clearance.begin(), record.centerlines->clearance.end()),
+              0.7 * kTube);
     EXPECT_FALSE(test::has_finding(record.diagnostics, "line_leaves_lumen"));
 }
 
