@@ -1,11 +1,12 @@
 #include "engine/condition/finish.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "engine/condition/half_edges.h"
+#include "engine/condition/vertex_normals.h"
 #include "engine/core/text.h"
 
 // The half-edges are paired once more on the finished surface: this check shares no code with what
@@ -14,15 +15,11 @@
 namespace lumenline {
 namespace {
 
-// Height of a triangle, per longest side, below which double precision gives its normal at random.
-constexpr double kThinnest = 1e-12;
-
-// Twice the area vector of a triangle; zero if it is too thin to have a direction.
-Vec3 area_vector(const std::array<Vec3, 3>& p, double rounding) {
-    const Vec3 doubled = cross(p[1] - p[0], p[2] - p[0]);
-    const double longest = std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-    const double thinnest = std::max(kThinnest * longest, 4 * rounding);
-    return norm(doubled) > thinnest * longest ? doubled : Vec3{};
+std::vector<Corners> corners_of(const Surface& surface) {
+    std::vector<Corners> triangles;
+    triangles.reserve(surface.triangles.size());
+    for (const auto& t : surface.triangles) triangles.push_back({t[0].value, t[1].value, t[2].value});
+    return triangles;
 }
 
 // Sites without a direction take the mean of their neighbours', ring by ring.
@@ -58,9 +55,7 @@ double median_edge(const WallMesh& wall) {
 }
 
 void verify_closed(Surface& surface) {
-    std::vector<Corners> triangles;
-    triangles.reserve(surface.triangles.size());
-    for (const auto& t : surface.triangles) triangles.push_back({t[0].value, t[1].value, t[2].value});
+    const std::vector<Corners> triangles = corners_of(surface);
     const HalfEdgePairs pairs = pair_half_edges(triangles, surface.points.size());
     const auto where = [&](std::uint32_t v) { return short_text(surface.points[v]); };
     if (pairs.first_irregular != kNoHalfEdge)
@@ -87,32 +82,15 @@ void verify_closed(Surface& surface) {
 }
 
 void compute_normals(Surface& surface, StageContext& context) {
-    surface.normals.assign(surface.points.size(), Vec3{});
-    std::size_t thin = 0;
-    for (const auto& t : surface.triangles) {
-        const std::array<Vec3, 3> p{surface.points[at(t[0])], surface.points[at(t[1])], surface.points[at(t[2])]};
-        const Vec3 doubled = area_vector(p, surface.coordinate_rounding);
-        const double area = norm(doubled);
-        if (area == 0) {
-            ++thin;
-            continue;
-        }
-        const Vec3 normal = (1 / area) * doubled;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double angle = std::atan2(area, dot(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]));
-            surface.normals[at(t[k])] += angle * normal;
-        }
-    }
-    bool lacking = false;
-    for (Vec3& n : surface.normals) {
-        n = normalized(n);
-        lacking |= n == Vec3{};
-    }
+    VertexNormals found = vertex_normals(surface.points, corners_of(surface), surface.coordinate_rounding);
+    surface.normals = std::move(found.normals);
+    const bool lacking = std::find(surface.normals.begin(), surface.normals.end(), Vec3{}) != surface.normals.end();
     if (lacking) spread_normals(surface);
-    if (thin > 0)
+    if (found.thin_triangles > 0)
         context.note("zero_area_triangles",
-                     counted(thin, "triangle") + " without measurable area kept for the sake of the surface's topology",
-                     static_cast<double>(thin));
+                     counted(found.thin_triangles, "triangle") +
+                         " without measurable area kept for the sake of the surface's topology",
+                     static_cast<double>(found.thin_triangles));
 }
 
 }  // namespace lumenline

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/condition/half_edges.h"
+#include "engine/condition/vertex_normals.h"
 #include "engine/condition/wall_radius.h"
 #include "engine/core/text.h"
 #include "engine/geometry/surface_distance.h"
@@ -32,22 +33,6 @@ constexpr std::uint32_t kUnsplit = kDropped;
 
 // rho / r at which a ball of radius R^2 = r^2 + rho^2 reaches beyond the wall by that share, r being the clearance.
 const double kMostCover = std::sqrt(1 / ((1 - kMostGap) * (1 - kMostGap)) - 1);
-
-std::vector<Vec3> vertex_normals(const WallMesh& wall) {
-    std::vector<Vec3> normals(wall.points.size());
-    for (const Corners& t : wall.triangles) {
-        const std::array<Vec3, 3> p{wall.points[t[0]], wall.points[t[1]], wall.points[t[2]]};
-        const Vec3 doubled = cross(p[1] - p[0], p[2] - p[0]);
-        const double area = norm(doubled);
-        if (!(area > 0)) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double angle = std::atan2(area, dot(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]));
-            normals[t[k]] += (angle / area) * doubled;
-        }
-    }
-    for (Vec3& n : normals) n = normalized(n);
-    return normals;
-}
 
 // Way from the middle of the chord a b to the arc.
 Vec3 bulge(Vec3 a, Vec3 b, Vec3 normal_a, Vec3 normal_b) {
@@ -164,7 +149,7 @@ private:
 
     // One point per marked edge, in the order of half-edges.
     void place_points() {
-        const std::vector<Vec3> normals = vertex_normals(wall_);
+        const std::vector<Vec3> normals = vertex_normals(wall_.points, wall_.triangles, 0).normals;
         const std::size_t most = (kMostGrowth + 1) * std::size_t{refined_.first_added};
         for (std::uint32_t h = 0; h < split_at_.size(); ++h) {
             if (split_at_[h] != 0) continue;
