@@ -330,7 +330,7 @@ void add_byte_damages(std::vector<Damage>& list) {
     cut.failures.merge(std::set<std::string>{"open_boundary", "non_manifold", "no_volume", "endpoints_missing",
                                              "no_outlet", "endpoint_outside", "endpoint_ambiguous", "target_unreached",
                                              "no_line_traced", "not_closed"});
-    for (const char* format : {"stl", "ply", "obj", "off", "vtk"}) {
+    for (const char* format : {"stl", "ply", "obj", "off", "vtk", "vtp"}) {
         for (const double share : {0.3, 0.99})
             list.push_back({std::string("cut at ") + (share < 0.5 ? "30 %" : "99 %"), format, cut,
                             [format, share](const TriangleSoup& clean, Random&) {
@@ -349,7 +349,7 @@ void add_byte_damages(std::vector<Damage>& list) {
                                 return bytes;
                             }});
     }
-    for (const char* format : {"stl", "ply", "vtk"})
+    for (const char* format : {"stl", "ply", "vtk", "vtp"})
         list.push_back(
             {"byte order swapped", format, {false, false, kBroken}, [format](const TriangleSoup& clean, Random&) {
                  return swapped_file_of(clean, format);

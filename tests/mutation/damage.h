@@ -20,7 +20,7 @@ struct Expected {
 /// One way to damage a surface, or a surface that is none.
 struct Damage {
     std::string name;
-    std::string format;  ///< extension of the file: stl, ply, obj, off, vtk
+    std::string format;  ///< extension of the file: stl, ply, obj, off, vtk, vtp
     Expected expected;
     /// The bytes of the damaged file.
     std::function<std::string(const TriangleSoup& clean, std::mt19937& random)> make;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "tests/mesh/vtp_writer.h"
+
 namespace lumenline::mutation {
 namespace {
 
@@ -78,6 +80,19 @@ std::string vtk(const TriangleSoup& s, std::endian order) {
     return b.take();
 }
 
+std::string vtp(const TriangleSoup& s, std::endian order) {
+    samples::VtpPiece piece;
+    piece.points = s.points;
+    for (const auto& t : s.triangles)
+        piece.polys.push_back({static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
+    samples::VtpStyle style;
+    style.format = samples::VtpStyle::Format::kAppendedRaw;
+    style.header_size = 8;
+    style.order = order;
+    style.point_type = "Float64";
+    return samples::vtp_file({piece}, style);
+}
+
 std::string obj(const TriangleSoup& s) {
     std::string text;
     for (const Vec3& p : s.points) text += "v " + spaced(p) + "\n";
@@ -101,6 +116,7 @@ std::string file_of(const TriangleSoup& soup, std::string_view format) {
     if (format == "stl") return stl(soup, std::endian::little);
     if (format == "ply") return ply(soup, std::endian::little);
     if (format == "vtk") return vtk(soup, std::endian::big);
+    if (format == "vtp") return vtp(soup, std::endian::little);
     if (format == "obj") return obj(soup);
     if (format == "off") return off(soup);
     throw std::invalid_argument("no such format");
@@ -110,6 +126,11 @@ std::string swapped_file_of(const TriangleSoup& soup, std::string_view format) {
     if (format == "stl") return stl(soup, std::endian::big);
     if (format == "ply") return ply(soup, std::endian::big);
     if (format == "vtk") return vtk(soup, std::endian::little);
+    if (format == "vtp") {
+        std::string bytes = vtp(soup, std::endian::big);
+        const std::string claim = "\"BigEndian\"";
+        return bytes.replace(bytes.find(claim), claim.size(), "\"LittleEndian\"");
+    }
     throw std::invalid_argument("no such format");
 }
 

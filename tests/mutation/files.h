@@ -7,11 +7,11 @@
 
 namespace lumenline::mutation {
 
-/// The bytes of a surface file, whatever the coordinates and indices are: binary STL (float32), binary PLY and legacy
-/// VTK (double), OBJ and OFF with 17 digits. io/mesh writes sound surfaces only.
+/// The bytes of a surface file, whatever the coordinates and indices are: binary STL (float32), binary PLY, legacy VTK
+/// and VTK XML with raw data (double), OBJ and OFF with 17 digits. io/mesh writes sound surfaces only.
 std::string file_of(const TriangleSoup& soup, std::string_view format);
 
-/// The same for stl, ply and vtk, all numbers in the other byte order than the format's.
+/// The same for stl, ply, vtk and vtp, all numbers in the other byte order than the format's.
 std::string swapped_file_of(const TriangleSoup& soup, std::string_view format);
 
 }  // namespace lumenline::mutation
