@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds Lumenline and runs its tests: all but those labelled `long`; with --all, those too.
+# Builds Lumenline and runs its tests: all but those labelled `long`; with --all, those too. Then fuzzes each reader for
+# some seconds where there is clang.
 # Usage: bash tests/run.sh [--all]
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -14,3 +15,8 @@ cd "$root"
 cmake --preset release -DLUMENLINE_TESTS=ON -DLUMENLINE_BENCH=ON
 cmake --build --preset release
 ctest --test-dir build/release --output-on-failure --no-tests=error --parallel "$(nproc)" "${exclude[@]}"
+if command -v clang++ >/dev/null; then
+    bash "$root/tests/fuzz/run.sh" 5
+else
+    echo "run.sh: there is no clang++ here, so the readers were not fuzzed" >&2
+fi
