@@ -2,6 +2,7 @@
 // none more.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -68,6 +69,36 @@ TEST(Codes, DocumentListsThoseOfTheSourcesAndNoMore) {
     const Codes codes = codes_of_sources(read_tree(LUMENLINE_SOURCE_DIR, {"engine", "io", "config"}));
     EXPECT_GT(codes.size(), 50U);
     EXPECT_EQ(listed(codes_of_document(document())), listed(codes));
+}
+
+/// Codes that no test names, failures by their name in the sources or in archives.
+std::string untested(const Codes& codes, const std::string& errors, const Tree& tests) {
+    std::map<std::string, std::string> names;  // of failures: code -> enumerator
+    const std::regex line(R"(case (ErrorCode::\w+): return "([a-z_]+)\")");
+    for (std::sregex_iterator match(errors.begin(), errors.end(), line), end; match != end; ++match)
+        names[(*match)[2]] = (*match)[1];
+    std::string missing;
+    for (const auto& [code, severities] : codes) {
+        const auto is_named = [&, quoted = "\"" + code + "\""](const auto& file) {
+            if (file.first.ends_with("codes_test.cpp")) return false;
+            if (file.second.find(quoted) != std::string::npos) return true;
+            const auto name = names.find(code);
+            return name != names.end() && file.second.find(name->second) != std::string::npos;
+        };
+        if (std::none_of(tests.begin(), tests.end(), is_named)) missing += code + "\n";
+    }
+    return missing;
+}
+
+TEST(Codes, TestsNameEachOfThem) {
+    const Tree engine = read_tree(LUMENLINE_SOURCE_DIR, {"engine"}), tests = read_tree(LUMENLINE_SOURCE_DIR, {"tests"});
+    const std::string errors = engine.at("engine/core/errors.cpp");
+    const Codes codes = codes_of_document(document());
+    EXPECT_EQ(untested(codes, errors, tests), "");
+    EXPECT_EQ(untested({{"alpha", {"note"}}, {"beta", {"failure"}}, {"gamma", {"note"}}},
+                       "case ErrorCode::kBeta: return \"beta\"",
+                       {{"a_test.cpp", "has(\"alpha\")"}, {"b_test.cpp", "ErrorCode::kBeta gamma"}}),
+              "gamma\n");
 }
 
 TEST(Codes, CheckSeesFaults) {

@@ -117,6 +117,7 @@ TEST(Network, HandleThatNoFrontReachesIsSaid) {
         EXPECT_EQ(record.surface->genus, 1);
         EXPECT_EQ(record.status, ModelStatus::kWarning);
         EXPECT_EQ(finding_value(record, "loops_unlike_genus"), 0);
+        EXPECT_TRUE(test::has_finding(record.diagnostics, "wall_unreached"));
         EXPECT_TRUE(record.centerlines->loops.empty());
     }
 }
