@@ -32,7 +32,9 @@ Closing close_plainly(const OpeningPlan& plan, StageContext& context) {
     if (!patch)
         refuse(ErrorCode::kOpenBoundary, name_of(plan) + " crosses itself and cannot be capped; repair its edge");
     context.warn("crooked_opening",
-                 name_of(plan) + " overlaps itself seen along its normal and was capped without an extension",
+                 name_of(plan) +
+                     " overlaps itself seen along its normal and was capped without an extension: cut the vessel's end "
+                     "anew, across it",
                  static_cast<double>(plan.corners.size()));
     return {std::move(*patch), 0};
 }
@@ -45,7 +47,9 @@ Closing close_opening(const OpeningPlan& plan, double wanted, bool blocked, cons
         auto patch = extend_opening(plan, share * wanted);
         if (!patch) {
             context.warn("crooked_opening",
-                         name_of(plan) + " has an edge too uneven for an extension and was capped without one",
+                         name_of(plan) +
+                             " has an edge too uneven for an extension and was capped without one: cut the vessel's "
+                             "end anew, across it",
                          static_cast<double>(plan.corners.size()));
             return close_plainly(plan, context);
         }

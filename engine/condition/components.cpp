@@ -167,7 +167,7 @@ void remove_fragments(WallMesh& wall, WallTopology& topology, StageContext& cont
         context.warn("fragment_removed",
                      counted(removed.components, "scrap") + " of " + counted(removed.triangles, "triangle") +
                          " in all, loose or split off at non-manifold edges, the first at " +
-                         short_text(removed.position) + ", removed",
+                         short_text(removed.position) + ", removed: look there if that is many",
                      static_cast<double>(removed.triangles), 0);
 }
 
@@ -187,7 +187,7 @@ void remove_specks(WallMesh& wall, WallTopology& topology, double share, StageCo
         context.warn("speck_removed",
                      counted(removed.components, "component") + " of " + counted(removed.triangles, "triangle") +
                          " in all, each of less than " + percent(share) + " of the area, the first at " +
-                         short_text(removed.position) + ", removed as specks",
+                         short_text(removed.position) + ", removed as specks: lower `speck_share` if one is a vessel",
                      static_cast<double>(removed.components), share);
 }
 
@@ -208,7 +208,7 @@ void select_components(WallMesh& wall, WallTopology& topology, ComponentPolicy p
     context.warn("component_dropped",
                  counted(removed.components, "component") + " of " + counted(removed.triangles, "triangle") + ", " +
                      percent(share) + " of the area, the first at " + short_text(removed.position) +
-                     ", left out: only the largest was asked for",
+                     ", left out, since only the largest was asked for: `components: each` keeps them",
                  static_cast<double>(removed.components), 0);
 }
 
@@ -268,7 +268,8 @@ void check_components(const Surface& surface, const std::vector<std::uint32_t>& 
     if (count < 2) return;
     context.warn("multiple_components",
                  "the surface has " + std::to_string(count) + " components; " + percent((area - largest) / area) +
-                     " of the area lies outside of the largest",
+                     " of the area lies outside of the largest: see that each is meant, or keep that one by "
+                     "`components: largest`",
                  count, 1);
     refuse_nested(surface, component, facts, boxes);
 }

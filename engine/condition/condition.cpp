@@ -62,7 +62,8 @@ void warn_of_crossings(const Surface& surface, const CrossingPairs& pairs, Stage
     const auto& t = surface.triangles[pairs.front().first];
     context.warn("self_intersections",
                  counted(pairs.size(), "pair") + (pairs.size() < kMostPairs ? "" : " or more") +
-                     " of triangles cross each other, the first at " + short_text(surface.points[at(t[0])]),
+                     " of triangles cross each other, the first at " + short_text(surface.points[at(t[0])]) +
+                     ": vessels that touch may be joined there",
                  static_cast<double>(pairs.size()), 0);
 }
 

@@ -208,7 +208,10 @@ void fill_holes(WallMesh& wall, WallTopology& topology, double median_edge, Stag
     for (std::size_t i = 0; i < loops.size(); ++i) {
         const std::string where = describe(wall, loops[i], shapes[i]);
         if (fill[i]) {
-            context.warn("hole_filled", "a hole of " + where + " is too small for an opening and was filled",
+            context.warn("hole_filled",
+                         "a hole of " + where +
+                             " is too small for an opening and was filled; if a vessel ends there: "
+                             "`fill_holes: false`",
                          static_cast<double>(loops[i].size()));
             append_patch(wall, topology, loops[i], fill_hole(wall, neighbours, loops[i]));
             ++filled;
@@ -218,7 +221,8 @@ void fill_holes(WallMesh& wall, WallTopology& topology, double median_edge, Stag
             ++suspicious;
             context.warn("opening_in_wall",
                          "the opening of " + where +
-                             " lies in the surface around it: rather a hole in the wall than the end of a vessel",
+                             " lies in the surface around it: rather a hole in the wall than the end of a vessel; mend "
+                             "the surface if it is one",
                          shapes[i].wall_cosine, kSurelyHoleCosine);
         }
         topology.loops.push_back(loops[i]);

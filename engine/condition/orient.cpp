@@ -77,16 +77,20 @@ std::size_t make_oriented_manifold(WallMesh& wall, const ConditionOptions& optio
         refuse(ErrorCode::kRepairOff, counted(flipped, "triangle") +
                                           " facing another way than the neighbours, and condition.orient_faces is off; "
                                           "repair the surface or switch it on");
+    const std::string edges = counted(pairs.non_manifold_edges, "edge") + " of more than two triangles and ";
+    const std::string turned = " and " + counted(flipped, "triangle") + " turned over";
     if (!split.empty())
         context.warn("non_manifold_split",
-                     "sheets split where they met, at " + counted(pairs.non_manifold_edges, "edge") +
-                         " of more than two triangles and " + std::to_string(split.size()) +
-                         (split.size() == 1 ? " vertex" : " vertices") + ", the first at " +
-                         short_text(wall.points[split.front()]) + "; " + counted(flipped, "triangle") + " turned over",
+                     "sheets parted where they met, at " + (pairs.non_manifold_edges > 0 ? edges : "") +
+                         std::to_string(split.size()) + (split.size() == 1 ? " vertex" : " vertices") +
+                         ", the first at " + short_text(wall.points[split.front()]) +
+                         (flipped > 0 ? "," + turned : "") + ": mend the segmentation if two vessels touch there",
                      static_cast<double>(split.size()), 0);
     else
-        context.warn("triangles_reoriented", counted(flipped, "triangle") + " faced the other way and turned over",
-                     static_cast<double>(flipped), 0);
+        context.warn(
+            "triangles_reoriented",
+            counted(flipped, "triangle") + " faced the other way and turned over: look at the surface if that is many",
+            static_cast<double>(flipped), 0);
 
     wall.triangles = repaired.triangles;
     for (std::size_t v = vertices; v < repaired.source.size(); ++v) {

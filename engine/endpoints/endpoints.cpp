@@ -179,10 +179,11 @@ private:
                 inlets_.push_back(ends_[chosen]);
                 continue;
             }
-            context_.warn("endpoint_unconnected",
-                          "the " + std::string(kind_name(ends_[chosen].kind)) + " at " +
-                              short_text(ends_[chosen].point) +
-                              " is the only end of its part of the lumen, which no inlet reaches; it is left out");
+            context_.warn("endpoint_unconnected", "the " + std::string(kind_name(ends_[chosen].kind)) + " at " +
+                                                      short_text(ends_[chosen].point) +
+                                                      " is the only end of its part of the lumen, which no inlet "
+                                                      "reaches, and is left out: give points if "
+                                                      "that part is to have a line");
         }
     }
 

@@ -37,7 +37,8 @@ void warn_if_off_axis(const Endpoint& e, Vec3 wanted, const std::string& name, S
     if (share > kFarFromAxis)
         context.warn("endpoint_off_axis",
                      name + " is " + short_text(share, 3) + " local radii away from the axis: its line ends at " +
-                         short_text(e.anchor) + ", where the radius is " + short_text(e.anchor_radius),
+                         short_text(e.anchor) + ", where the radius is " + short_text(e.anchor_radius) +
+                         "; state the end as a point if that is another place",
                      share, kFarFromAxis);
 }
 

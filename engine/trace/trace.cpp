@@ -102,7 +102,8 @@ public:
 
     void report_unreached(std::size_t target) {
         context_.error("target_unreached", "no front reached " + describe(endpoints_, target) +
-                                               ": it has no connection to a source inside the lumen, and no line");
+                                               ": it has no connection to a source inside the lumen, and no line; see whether the "
+                                               "lumen is open between them");
     }
 
     bool is_inside(const ComplexPath& path) { return verifier_.check(polyline_of(complex_, path)).inside; }
@@ -119,7 +120,7 @@ public:
                               short_text(100 * gap_length_ / length_, 3) +
                               " % of the lines' length balls reach beyond the wall by more than " +
                               short_text(100 * kUndersampled, 3) + " % of their radius, at " + short_text(gap_at_) +
-                              " by " + short_text(100 * largest_gap_, 3) + " %; radii there are overestimated",
+                              " by " + short_text(100 * largest_gap_, 3) + " %; radii there are overestimated: make the surface finer",
                           largest_gap_, kUndersampled);
         return std::move(lines_);
     }
@@ -144,18 +145,21 @@ private:
     bool is_usable(const Candidate& line, const std::string& name) {
         if (line.cut.size() < 2) {
             context_.error("line_vanished", "the line to " + name +
-                                                " has no part between the planes of its two openings; it is left out");
+                                                " has no part between the planes of its two openings and is left out; see "
+                                                "whether they are the ends of one vessel");
             return false;
         }
         if (!line.check.inside) {
             context_.error("line_leaves_lumen", "the line to " + name + " leaves the lumen at " +
-                                                    short_text(line.check.outside_at) + "; it is left out");
+                                                    short_text(line.check.outside_at) +
+                                                    " and is left out; look for walls that cross there");
             return false;
         }
         if (line.check.ball_excess > 0)
             context_.error("ball_clearance",
                            "the line to " + name +
-                               " has a ball that disagrees with its distance to the wall: its radii there are doubtful",
+                               " has a ball that disagrees with its distance to the wall: its radii are doubtful; "
+                               "report it with the model",
                            line.check.ball_excess, 0);
         return true;
     }
@@ -348,7 +352,7 @@ void report_unreached_wall(const Surface& surface, const VoronoiComplex& complex
     if (share > kUnreachedWall)
         context.warn("wall_unreached",
                      short_text(100 * share, 3) + " % of the wall, the first of it at " + short_text(place) +
-                         ", belongs to parts of the lumen that no front reached from an inlet: they have no lines",
+                         ", belongs to parts of the lumen that no front reached and that have no lines: give them an inlet",
                      share, kUnreachedWall);
 }
 
