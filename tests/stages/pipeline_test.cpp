@@ -205,6 +205,32 @@ TEST(Pipeline, Float32FileIsTheModelOfItsRoundedCoordinates) {
     }
 }
 
+TEST(Pipeline, SinglePrecisionFarFromTheOriginKeepsTheLine) {
+    constexpr double kAway = 1e4;  // sizes
+    PhantomOptions options = options_of(PhantomKind::kTorus, 0.2);
+    options.points_around = 24;
+    const Processed original = run(options);
+    const double size = original.record.surface->diagonal;
+    for (const double scale : {1e-3, 1.0, 1e3}) {  // metres, millimetres, micrometres
+        SCOPED_TRACE("scale " + std::to_string(scale));
+        PhantomOptions moved = options;
+        moved.float32 = true;
+        moved.scale = scale;
+        moved.offset = scale * kAway * size * Vec3{0.6, -0.64, 0.48};
+        const Processed result = run(moved);
+        ASSERT_FALSE(result.record.failure.has_value()) << result.record.failure->sentence;
+        ASSERT_EQ(result.lines().line_count(), 1U);
+        for (const Diagnostic& d : result.record.diagnostics) EXPECT_NE(d.severity, Severity::kError) << d.message;
+        // Coordinates are on a grid of a twentieth of an edge, which is noise of up to half of it in each of them:
+        // lines move by no more than a few times that.
+        const double spacing = 0x1p-23 * kAway * size;
+        EXPECT_LT(test::distance_between_lines(unmoved(result.lines(), scale, moved.offset), original.lines().points),
+                  4 * spacing);
+        for (std::size_t i = 0; i < 2; ++i)
+            EXPECT_NEAR((*result.record.endpoints)[i].radius / scale, (*original.record.endpoints)[i].radius, spacing);
+    }
+}
+
 TEST(Pipeline, SecondRunIsEqualToTheLastBit) {
     const PhantomOptions options = options_of(PhantomKind::kHelix, 0.2);
     const Processed first = run(options), second = run(options);
