@@ -30,8 +30,10 @@ constexpr double kSafeEdge2 = 0.6 * 0.6;
 constexpr double kGraded2 = 2 * 2;
 /// Voronoi edges shorter than a fifth of their ball's radius are no way through a wall; squared.
 constexpr double kShortEdge2 = 0.2 * 0.2;
-/// Cells lower than this many times the rounding of coordinates have no centre of their own.
-constexpr double kFlatRoundings = 64;
+/// Cells lower than this many times the rounding of coordinates have no centre of their own; where the rounding is
+/// not small against edges, as far from the origin, it is noise like any other, and only cells lower than this share
+/// of the edges are.
+constexpr double kFlatRoundings = 64, kFlatShare = 0.01;
 
 struct SiteFrame {
     Vec3 position, normal;
@@ -248,7 +250,10 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
         inside.sites[i] = tetrahedra.sites[cell];
         const auto corner = [&](std::size_t k) { return frames[inside.sites[i][k]].position; };
         inside.radius[i] = distance(centres[cell], corner(0));
-        flat[i] = is_flat(corner(0), corner(1), corner(2), corner(3), height);
+        double longest2 = 0;
+        for (const std::uint32_t s : inside.sites[i]) longest2 = std::max(longest2, frames[s].longest_edge);
+        flat[i] = is_flat(corner(0), corner(1), corner(2), corner(3),
+                          std::min(height, kFlatShare * std::sqrt(longest2)));
         any_flat = any_flat || flat[i];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t n = tetrahedra.neighbours[cell][k];
