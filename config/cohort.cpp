@@ -82,6 +82,14 @@ PipelineOptions read_options(const MapReader& top) {
     t.topology = enumerated(centerlines.choice("topology"), t.topology,
                             std::array{Topology::kTree, Topology::kNetwork}, topology_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
+    const MapReader branches = top.section("branches");
+    BranchOptions& b = options.branches;
+    b.enabled = branches.boolean("enabled").value_or(b.enabled);
+    b.step = branches.number("step").value_or(b.step);
+    b.smoothing = branches.number("smoothing").value_or(b.smoothing);
+    b.section_step = branches.number("section_step").value_or(b.section_step);
+    b.patches_along = branches.integer_or_word("patches_along").value_or(b.patches_along);
+    b.patches_around = branches.integer_or_word("patches_around").value_or(b.patches_around);
     return options;
 }
 

@@ -126,6 +126,15 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "topology", topology_name(options.trace.topology));
     out << YAML::EndMap;
     write(out, "characterize", options.characterize ? "true" : "false");
+    write_section(out, "branches");
+    const BranchOptions& b = options.branches;
+    flag("enabled", b.enabled);
+    write(out, "step", exact_text(b.step));
+    write(out, "smoothing", exact_text(b.smoothing));
+    write(out, "section_step", exact_text(b.section_step));
+    write(out, "patches_along", std::to_string(b.patches_along));
+    write(out, "patches_around", std::to_string(b.patches_around));
+    out << YAML::EndMap;
     write_section(out, "run");
     write(out, "threads", count_or(config.run.threads, "all"));
     write(out, "models_in_flight", count_or(config.run.models_in_flight, "auto"));

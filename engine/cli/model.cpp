@@ -153,6 +153,7 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     verb.add_flag("--skip-self-intersections", arguments.skip_self_intersections, "Do not look for self-intersections");
     verb.add_flag("--skip-characterization", arguments.skip_characterization,
                   "Do not relate the surface's points to the centerlines");
+    verb.add_flag("!--skip-branches", o.branches.enabled, "Do not split the lines into branches, nor measure them");
     verb.add_flag("!--keep-faces", o.condition.drop_faces, "Refuse degenerate and repeated triangles");
     verb.add_flag("!--keep-orientation", o.condition.orient_faces, "Refuse flipped triangles and inward components");
     verb.add_flag("!--keep-non-manifold", o.condition.split_non_manifold, "Refuse edges of more than two triangles");

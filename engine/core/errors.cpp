@@ -9,7 +9,7 @@ namespace lumenline {
 
 std::string_view stage_name(Stage stage) {
     static constexpr std::array<std::string_view, kStageCount> kNames{
-        "load", "condition", "voronoi", "endpoints", "eikonal", "trace", "characterize", "archive"};
+        "load", "condition", "voronoi", "endpoints", "eikonal", "trace", "characterize", "branches", "archive"};
     return kNames.at(static_cast<std::size_t>(stage));
 }
 

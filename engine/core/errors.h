@@ -8,9 +8,9 @@
 namespace lumenline {
 
 /// The stages of one model, in the order in which it passes them.
-enum class Stage { kLoad, kCondition, kVoronoi, kEndpoints, kEikonal, kTrace, kCharacterize, kArchive };
+enum class Stage { kLoad, kCondition, kVoronoi, kEndpoints, kEikonal, kTrace, kCharacterize, kBranches, kArchive };
 
-inline constexpr int kStageCount = 8;
+inline constexpr int kStageCount = 9;
 
 /// Lower-case name of a stage, as written in the archive.
 std::string_view stage_name(Stage stage);

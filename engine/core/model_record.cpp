@@ -4,6 +4,8 @@
 #include <array>
 #include <csignal>
 
+#include "engine/core/branch_tables.h"
+
 namespace lumenline {
 
 std::string_view status_name(ModelStatus status) {
@@ -86,6 +88,10 @@ ModelSummary summarize(const ModelRecord& record) {
         summary.normalized_tangency_deviation = record.character->normalized_tangency_deviation_statistics;
         summary.unreached_sites = record.character->unreached;
     }
+    if (record.branches || record.endpoints)
+        for (const Table& table : index_tables(record.branches ? *record.branches : Branches(),
+                                               record.endpoints ? *record.endpoints : Endpoints()))
+            summary.tables.push_back(rows_of(table));
     return summary;
 }
 

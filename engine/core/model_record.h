@@ -15,9 +15,12 @@
 #include "engine/core/endpoints.h"
 #include "engine/core/surface.h"
 #include "engine/core/surface_character.h"
+#include "engine/core/table.h"
 #include "engine/core/voronoi_complex.h"
 
 namespace lumenline {
+
+struct Branches;
 
 enum class ModelStatus { kOk, kWarning, kFailed };
 
@@ -68,6 +71,7 @@ struct ModelRecord {
     std::vector<std::shared_ptr<const ArrivalField>> fields;  ///< one per source, in endpoint order
     std::shared_ptr<const Centerlines> centerlines;
     std::shared_ptr<const SurfaceCharacter> character;  ///< null also where it was not asked for
+    std::shared_ptr<const Branches> branches;           ///< null also where they were not asked for
     RunFacts facts;
 };
 
@@ -88,6 +92,7 @@ struct ModelSummary {
     double diagonal = 0;              ///< of the wall's bounding box; 0 = no surface was made [length]
     double edge_over_radius = 0;      ///< the wall's median edge over the lines' median radius; 0 = no line
     double seconds = 0;
+    std::vector<TableRows> tables;  ///< of index_tables, in their order; none where nothing is known
 };
 
 ModelSummary summarize(const ModelRecord& record);

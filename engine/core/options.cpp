@@ -57,7 +57,7 @@ namespace {
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
     "condition.version=3\nvoronoi.version=3\nendpoints.version=2\neikonal.version=1\ntrace.version=4\n"
-    "characterize.version=1\n";
+    "characterize.version=1\nbranches.version=1\n";
 
 std::string points_text(const std::vector<Vec3>& points) {
     std::string text;
@@ -100,6 +100,12 @@ std::string canonical_text(const ModelTask& task) {
     line("centerlines.join", join_name(o.trace.join));
     line("centerlines.topology", topology_name(o.trace.topology));
     line("characterize", o.characterize ? "true" : "false");
+    flag("branches.enabled", o.branches.enabled);
+    line("branches.step", exact_text(o.branches.step));
+    line("branches.smoothing", exact_text(o.branches.smoothing));
+    line("branches.section_step", exact_text(o.branches.section_step));
+    line("branches.patches_along", std::to_string(o.branches.patches_along));
+    line("branches.patches_around", std::to_string(o.branches.patches_around));
     return text;
 }
 

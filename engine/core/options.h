@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/branch_options.h"
 #include "engine/core/condition_options.h"
 #include "engine/core/model_record.h"
 #include "engine/core/vec3.h"
@@ -113,6 +114,7 @@ struct PipelineOptions {
     EndpointOptions endpoints;
     TraceOptions trace;
     bool characterize = true;  ///< run engine/characterize
+    BranchOptions branches;
 };
 
 /// One model to be computed.

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "engine/branches/branches.h"
 #include "engine/characterize/characterize.h"
 #include "engine/condition/condition.h"
 #include "engine/core/text.h"
@@ -152,6 +153,15 @@ void ModelJob::characterize() {
     });
 }
 
+void ModelJob::find_branches() {
+    if (!task_.options.branches.enabled) return;
+    run(Stage::kBranches, [&](StageContext& context) {
+        record_.branches = std::make_shared<const Branches>(
+            lumenline::find_branches(*record_.surface, *record_.centerlines, record_.character.get(),
+                                     task_.options.branches, context));
+    });
+}
+
 ModelRecord ModelJob::take() {
     record_.status = ModelStatus::kOk;
     for (const Diagnostic& d : record_.diagnostics)
@@ -171,6 +181,7 @@ ModelRecord process_model(const ModelTask& task, const Loader& loader) {
     for (std::size_t i = 0; i < job.source_count(); ++i) job.solve(i, work);
     job.trace();
     job.characterize();
+    job.find_branches();
     return job.take();
 }
 

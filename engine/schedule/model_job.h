@@ -42,6 +42,7 @@ public:
     bool last_source_done() { return sources_left_.fetch_sub(1) == 1; }
     void trace();
     void characterize();
+    void find_branches();
 
     /// Of the surface as far as it has come; 0 = it has not been read.
     [[nodiscard]] std::size_t sites() const {

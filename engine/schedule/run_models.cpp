@@ -2,7 +2,7 @@
 //
 //   admission -> load -> condition -> voronoi -> endpoints -> fan out --> eikonal (per source) --> trace
 //       ^                                                        \__ failed: no sources ____________/ |
-//       |_________________________ release: writer <- characterize <---------------------------------|
+//       |_________________________ release: writer <- branches <- characterize <----------------------|
 //
 // Admission is a serial node: each model that leaves gives back what it took, so no token can be lost between a
 // failure and its release; and when its surface is read, and again when it is conditioned, what the model takes is put
@@ -100,6 +100,8 @@ public:
           trace_(graph_, flow::unlimited, [](const JobPtr& job) { return step(job, [&] { job->trace(); }); }),
           characterize_(graph_, flow::unlimited,
                         [](const JobPtr& job) { return step(job, [&] { job->characterize(); }); }),
+          branches_(graph_, flow::unlimited,
+                    [](const JobPtr& job) { return step(job, [&] { job->find_branches(); }); }),
           writer_(graph_, flow::serial, [this](const JobPtr& job) { return write(*job); }) {
         flow::make_edge(flow::output_port<0>(admission_), load_);
         flow::make_edge(load_, condition_);
@@ -110,7 +112,8 @@ public:
         flow::make_edge(flow::output_port<1>(fan_out_), trace_);
         flow::make_edge(flow::output_port<0>(eikonal_), trace_);
         flow::make_edge(trace_, characterize_);
-        flow::make_edge(characterize_, writer_);
+        flow::make_edge(characterize_, branches_);
+        flow::make_edge(branches_, writer_);
         flow::make_edge(writer_, admission_);
     }
 
@@ -253,7 +256,7 @@ private:
     StageNode condition_, voronoi_, endpoints_;
     FanOut fan_out_;
     Solver eikonal_;
-    StageNode trace_, characterize_;
+    StageNode trace_, characterize_, branches_;
     flow::function_node<JobPtr, Release> writer_;
 };
 

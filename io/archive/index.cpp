@@ -14,11 +14,13 @@
 #include <set>
 #include <system_error>
 
+#include "engine/core/branch_tables.h"
 #include "engine/core/size_note.h"
 #include "engine/core/version.h"
 #include "io/archive/file_stamp.h"
 #include "io/archive/index_names.h"
 #include "io/archive/model_file.h"
+#include "io/archive/tables.h"
 #include "io/archive/utf8.h"
 #include "io/archive/writer.h"
 
@@ -214,6 +216,22 @@ void write_file_stamps(Writer& writer, const std::filesystem::path& archive_dir,
     writer.column(names::kFileTime, times);
 }
 
+/// The rows of all models' tables, with the model's id in front.
+void write_tables(Writer& writer, Models models) {
+    std::vector<Table> tables = index_tables(Branches(), Endpoints());
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+        Column id{"id", "1", "name of the model", "", ColumnKind::kText, {}, {}};
+        for (const ModelSummary& model : models) {
+            if (model.tables.empty()) continue;
+            id.texts.insert(id.texts.end(), model.tables.at(t).rows, model.identity.id);
+            append_rows(model.tables[t], tables[t]);
+        }
+        tables[t].columns.insert(tables[t].columns.begin(), std::move(id));
+        hdf::write_table(writer, std::string("/tables/") + tables[t].name, tables[t]);
+        tables[t].columns.clear();
+    }
+}
+
 void write_seconds(Writer& writer, Models models) {
     identity_column(writer, names::kSecondsId, models, &ModelIdentity::id);
     std::vector<double> seconds;
@@ -241,6 +259,7 @@ void write_index(const std::filesystem::path& archive_dir, std::span<const Model
         write_models(writer, models);
         write_covariates(writer, models);
         write_failures(writer, models);
+        write_tables(writer, models);
         writer.text(names::kConfigGiven, config_text);
         writer.text(names::kConfigResolved, resolved_config);
         write_seconds(writer, models);

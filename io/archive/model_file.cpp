@@ -14,6 +14,7 @@
 #include "engine/core/text.h"
 #include "engine/core/version.h"
 #include "io/archive/line_names.h"
+#include "io/archive/tables.h"
 #include "io/archive/vtkhdf.h"
 #include "io/archive/writer.h"
 
@@ -104,18 +105,6 @@ void write_surface(Writer& writer, const ModelRecord& record) {
     if (record.complex) writer.column(names::kPole, record.complex->pole, sites);
 }
 
-/// A field of scalars, in the precision that was asked for.
-void write_scalars(Writer& writer, const names::Field& field, const std::vector<double>& values, std::size_t expected,
-                   const ArchiveOptions& options) {
-    if (values.size() != expected)
-        throw hdf::Inconsistent(std::string(field.path) + " has " + counted(values.size(), "value") +
-                                " where the record asks for " + std::to_string(expected));
-    const hsize_t length = expected;
-    const hdf::Rows rows{values.data(), expected};
-    writer.numbers(field, {&length, 1}, Number::kFloat64, options.float32_fields ? Number::kFloat32 : Number::kFloat64,
-                   {&rows, 1});
-}
-
 void write_character(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
     const SurfaceCharacter& c = *record.character;
     const std::size_t sites = record.surface->site_count();
@@ -127,12 +116,12 @@ void write_character(Writer& writer, const ModelRecord& record, const ArchiveOpt
         {&names::kGeodesicRefined, &c.geodesic_distance_refined},
         {&names::kTangencyDeviationRefined, &c.normalized_tangency_deviation_refined},
         {&names::kSiteAbscissa, &c.abscissa}};
-    for (const auto& [field, values] : scalars) write_scalars(writer, *field, *values, sites, options);
+    for (const auto& [field, values] : scalars) hdf::write_scalars(writer, *field, *values, sites, options);
     writer.column(names::kCenterlinePoint, c.centerline_point, sites);
     writer.column(names::kCenterlineId, c.centerline_id, sites);
     const auto zone = [](SiteZone z) { return static_cast<std::uint8_t>(z); };
     writer.column(names::kZone, number_column<std::uint8_t>(c.zone, zone), sites);
-    write_scalars(writer, names::kCenterlineDistance, c.centerline_distance, record.complex->vertex_count(), options);
+    hdf::write_scalars(writer, names::kCenterlineDistance, c.centerline_distance, record.complex->vertex_count(), options);
 
     const std::pair<const names::Field*, const AreaStatistics*> statistics[] = {
         {&names::kStatisticsGeodesic, &c.geodesic_distance_statistics},
@@ -277,6 +266,9 @@ void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& 
         write_loops(writer, record.centerlines->loops);
     }
     if (record.character) write_character(writer, record, options);
+    if (record.branches && record.surface && record.centerlines)
+        hdf::write_branches(writer, *record.branches, record.surface->site_count(), record.centerlines->points.size(),
+                            options);
     write_diagnostics(writer, record.diagnostics);
     write_vtkhdf(writer, record);
     write_facts(writer, record.facts, record.options);

@@ -17,7 +17,7 @@ struct Field {
     const char* description;
 };
 
-/// As a unit: the model's `length_unit`.
+/// As a unit, or part of one such as "1/length": the model's `length_unit`.
 inline constexpr std::string_view kLength = "length";
 
 // clang-format off

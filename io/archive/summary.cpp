@@ -8,10 +8,13 @@
 #include <memory>
 #include <optional>
 
+#include "engine/core/branch_tables.h"
+#include "io/archive/branch_names.h"
 #include "io/archive/index.h"
 #include "io/archive/index_names.h"
 #include "io/archive/line_names.h"
 #include "io/archive/read.h"
+#include "io/archive/tables.h"
 
 namespace lumenline {
 
@@ -89,15 +92,51 @@ std::shared_ptr<const Centerlines> read_lines(const ArchiveFile& file) {
     return lines;
 }
 
-std::shared_ptr<const Endpoints> read_roles(const ArchiveFile& file) {
+std::shared_ptr<const Endpoints> read_endpoints(const ArchiveFile& file) {
     auto endpoints = std::make_shared<Endpoints>();
-    for (const std::string& role : file.strings(names::kEndpointRole.path)) {
+    const std::vector<std::string> roles = file.strings(names::kEndpointRole.path);
+    const std::vector<std::string> kinds = file.strings(names::kEndpointKind.path);
+    const std::vector<double> points = file.numbers(names::kEndpointPoint.path);
+    const std::vector<double> radii = file.numbers(names::kEndpointRadius.path);
+    if (kinds.size() != roles.size() || points.size() != 3 * roles.size() || radii.size() != roles.size())
+        damaged(file, "the arrays of /endpoints are not of matching length");
+    for (std::size_t e = 0; e < roles.size(); ++e) {
         Endpoint endpoint;
-        endpoint.role = role == role_name(EndpointRole::kInlet) ? EndpointRole::kInlet : EndpointRole::kOutlet;
-        if (role_name(endpoint.role) != role) damaged(file, "'" + role + "' is no role of an endpoint");
+        endpoint.role = roles[e] == role_name(EndpointRole::kInlet) ? EndpointRole::kInlet : EndpointRole::kOutlet;
+        if (role_name(endpoint.role) != roles[e]) damaged(file, "'" + roles[e] + "' is no role of an endpoint");
+        for (const EndpointKind kind :
+             {EndpointKind::kBoundary, EndpointKind::kPoint, EndpointKind::kTip, EndpointKind::kCap})
+            if (kind_name(kind) == kinds[e]) endpoint.kind = kind;
+        if (kind_name(endpoint.kind) != kinds[e]) damaged(file, "'" + kinds[e] + "' is no kind of an endpoint");
+        endpoint.point = {points[3 * e], points[3 * e + 1], points[3 * e + 2]};
+        endpoint.radius = radii[e];
         endpoints->push_back(endpoint);
     }
     return endpoints;
+}
+
+/// The tables of the branches, and the branches of the endpoints.
+std::vector<TableRows> read_tables(const ArchiveFile& file, const Endpoints& ends) {
+    std::vector<Table> tables = index_tables(Branches(), ends);
+    std::vector<TableRows> rows;
+    for (std::size_t t = 0; t + 1 < tables.size(); ++t) {
+        hdf::read_table(file, std::string("/") + tables[t].name, tables[t]);
+        rows.push_back(rows_of(tables[t]));
+    }
+    if (file.has(names::kEdges.path)) {
+        const std::vector<double> endpoints = file.numbers(names::kNodeEndpoint.path);
+        const std::vector<double> edges = file.numbers(names::kEdges.path);
+        std::vector<double>& branches = tables.back().columns.back().numbers;
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            if (!(edges[k] >= 0 && edges[k] < static_cast<double>(endpoints.size())))
+                damaged(file, "/graph/edges name nodes that do not exist");
+            const double endpoint = endpoints[static_cast<std::size_t>(edges[k])];
+            if (endpoint >= 0 && endpoint < static_cast<double>(branches.size()))
+                branches[static_cast<std::size_t>(endpoint)] = static_cast<double>(k / 2);
+        }
+    }
+    rows.push_back(rows_of(tables.back()));
+    return rows;
 }
 
 AreaStatistics read_statistics(const ArchiveFile& file, const names::Field& field) {
@@ -271,7 +310,7 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     if (record.status == ModelStatus::kFailed) record.failure = read_failure(file);
     record.diagnostics = read_severities(file);
     if (file.has(names::kSurfacePoints.path)) record.surface = read_surface_sizes(file);
-    if (file.has(names::kEndpointRole.path)) record.endpoints = read_roles(file);
+    if (file.has(names::kEndpointRole.path)) record.endpoints = read_endpoints(file);
     if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
     if (file.has(names::kStatisticsGeodesic.path)) record.character = read_character(file);
     record.facts.total_seconds = only_number(file, names::kTotalSeconds);
@@ -281,6 +320,7 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     summary.triangles = length_of(file, names::kTriangles);
     summary.voronoi_vertices = length_of(file, names::kVertices);
     summary.polygons = length_of(file, names::kPolygonSites);
+    if (record.endpoints) summary.tables = read_tables(file, *record.endpoints);
     return summary;
 }
 

@@ -121,7 +121,10 @@ Handle Writer::create(const names::Field& field, std::span<const hsize_t> shape,
     Handle dataset(H5Dcreate2(file_.get(), field.path, type, space.get(), H5P_DEFAULT,
                               without_times(H5P_DATASET_CREATE).get(), H5P_DEFAULT),
                    H5Dclose, field.path);
-    attribute(field.path, "units", field.units == names::kLength ? std::string_view(length_unit_) : field.units);
+    std::string units = field.units;
+    if (const std::size_t at = units.find(names::kLength); at != std::string::npos)
+        units.replace(at, names::kLength.size(), length_unit_);
+    attribute(field.path, "units", units);
     attribute(field.path, "description", field.description);
     return dataset;
 }

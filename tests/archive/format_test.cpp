@@ -112,8 +112,9 @@ Strings complaints_about(const ArchiveNode& node, const Documented& entry, const
             if (evaluated(entry.shape[d], letters) != node.shape[d])
                 found.push_back(node.path + " has " + std::to_string(node.shape[d]) + " where " + entry.shape[d] +
                                 " is documented");
-    if (node.units != (entry.units == "length" ? length_unit : entry.units))
-        found.push_back(node.path + " has unit " + node.units);
+    std::string units = entry.units;
+    if (const std::size_t at = units.find("length"); at != std::string::npos) units.replace(at, 6, length_unit);
+    if (node.units != units) found.push_back(node.path + " has unit " + node.units);
     if (node.description.empty()) found.push_back(node.path + " has no description");
     return found;
 }

@@ -167,6 +167,7 @@ TEST(ModelFile, LinesWithoutPointsAreKept) {
     auto lines = std::make_shared<Centerlines>();
     lines->offsets = lines->path.offsets = {0};
     record.centerlines = lines;
+    record.branches = nullptr;
     const ArchiveFile file = written(record, "no_lines");
     EXPECT_EQ(file.shape("/centerlines/points"), (Shape{0, 3}));
     EXPECT_EQ(difference(summarize(record), read_summary(file.file())), "");

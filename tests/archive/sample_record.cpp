@@ -8,7 +8,9 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
+#include "engine/core/branch_tables.h"
 #include "io/archive/index.h"
 #include "io/archive/model_file.h"
 
@@ -133,6 +135,85 @@ std::shared_ptr<const SurfaceCharacter> sample_character() {
     return character;
 }
 
+/// Thirds that differ from column to column, with a missing value.
+class Filler {
+public:
+    void operator()(std::vector<double>& column, std::size_t rows) {
+        for (std::size_t k = 0; k < rows; ++k) column.push_back(next_++ / 3.0);
+        column.back() = std::numeric_limits<double>::quiet_NaN();
+    }
+    void operator()(std::vector<Vec3>& column, std::size_t rows) {
+        for (std::size_t k = 0; k < rows; ++k) column.push_back({next_++ / 3.0, next_++ / 7.0, next_++ / 9.0});
+    }
+    void operator()(std::vector<Distribution>& column, std::size_t rows) {
+        for (std::size_t k = 0; k < rows; ++k)
+            column.push_back({next_++ / 3.0, 0.1, 0.2, 0.3, 0.4, next_++ / 7.0, 0.6, 0.7, 0.8});
+    }
+    template <class T>
+    requires(!std::is_floating_point_v<T>) void operator()(std::vector<T>& column, std::size_t rows) {
+        for (std::size_t k = 0; k < rows; ++k) column.push_back(T(static_cast<std::uint8_t>(k)));
+    }
+    /// Several columns of one length.
+    template <class... Columns>
+    void all(std::size_t rows, Columns&... columns) {
+        ((*this)(columns, rows), ...);
+    }
+
+private:
+    int next_ = 1;
+};
+
+void fill_tables(Branches& b, Filler& fill) {
+    BranchTable& t = b.table;
+    fill.all(3, t.parent, t.generation, t.line_count, t.order_margin, t.length, t.own_length, t.chord,
+             t.length_over_chord, t.tortuosity, t.taper, t.radius, t.area, t.curvature, t.torsion, t.wall_area,
+             t.volume, t.geodesic_distance, t.euclidean_distance, t.normalized_tangency_deviation);
+    t.parent[0] = BranchId();
+    SectionTable& s = b.sections;
+    fill.all(5, s.branch, s.abscissa, s.point, s.normal, s.area, s.perimeter, s.equivalent_diameter,
+             s.hydraulic_diameter, s.min_diameter, s.max_diameter, s.min_projection, s.inscribed_diameter,
+             s.circularity, s.centroid_offset, s.closed);
+    BifurcationTable& j = b.bifurcations;
+    fill.all(1, j.node, j.parent, j.child_1, j.child_2, j.children, j.origin, j.normal, j.angle_1, j.angle_2,
+             j.angle_between, j.in_plane_1, j.in_plane_2, j.out_of_plane_parent, j.out_of_plane_1, j.out_of_plane_2,
+             j.planarity, j.parent_diameter, j.diameter_1, j.diameter_2, j.area_ratio, j.diameter_ratio_1,
+             j.diameter_ratio_2, j.asymmetry, j.murray_exponent);
+    StenosisTable& n = b.stenoses;
+    fill.all(3, n.abscissa, n.diameter, n.area, n.nascet_diameter, n.nascet_area, n.ecst_diameter, n.ecst_area,
+             n.distal_reference, n.fitted_reference, n.from, n.to, n.length);
+    DilationTable& d = b.dilations;
+    fill.all(3, d.abscissa, d.diameter, d.fitted_reference, d.ratio, d.area_ratio, d.from, d.to, d.length);
+    PatchTable& p = b.patches;
+    fill.all(8, p.branch, p.along, p.around, p.sites, p.area, p.distance, p.geodesic_distance, p.euclidean_distance,
+             p.normalized_tangency_deviation);
+}
+
+std::shared_ptr<const Branches> sample_branches() {
+    auto branches = std::make_shared<Branches>();
+    Branches& b = *branches;
+    Filler fill;
+    fill.all(4, b.graph.position, b.graph.radius);
+    b.graph.endpoint = {EndpointId(0), EndpointId(), EndpointId(1), EndpointId(3)};
+    b.graph.junction = {JunctionId(), JunctionId(0), JunctionId(), JunctionId()};
+    b.graph.edges = {{NodeId(0), NodeId(1)}, {NodeId(1), NodeId(2)}, {NodeId(1), NodeId(3)}};
+    b.lines.offsets = {0, 2, 5, 7};
+    fill.all(7, b.lines.points, b.lines.radius, b.lines.abscissa, b.lines.curvature, b.lines.torsion, b.lines.tangent,
+             b.lines.normal, b.lines.frame);
+    fill.all(3, b.lines.own_from, b.lines.own_to);
+    fill.all(9, b.points.branch, b.points.junction, b.points.branch_abscissa, b.points.curvature, b.points.torsion,
+             b.points.tangent, b.points.frame);
+    fill.all(5, b.surface.branch, b.surface.junction, b.surface.longitudinal, b.surface.relative, b.surface.angle);
+    b.surface.branch.back() = BranchId();
+    fill_tables(b, fill);
+    return branches;
+}
+
+bool same_rows(const TableRows& a, const TableRows& b) {
+    const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+    return a.rows == b.rows && a.texts == b.texts &&
+           std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end(), same);
+}
+
 }  // namespace
 
 ModelRecord sample_record(const std::string& id) {
@@ -159,7 +240,8 @@ ModelRecord sample_record(const std::string& id) {
     record.fields = {sample_field(0, kInfinity), sample_field(2, 2)};
     record.centerlines = sample_lines();
     record.character = sample_character();
-    record.facts.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.3, 0.4};
+    record.branches = sample_branches();
+    record.facts.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.2, 0.1, 0.4};
     record.facts.total_seconds = 2.8;
     record.facts.peak_resident_bytes = 123456789;
     record.facts.threads = 2;
@@ -174,6 +256,7 @@ ModelRecord failed_record(const std::string& id) {
     record.fields = {nullptr};
     record.centerlines = nullptr;
     record.character = nullptr;
+    record.branches = nullptr;
     return record;
 }
 
@@ -237,6 +320,9 @@ std::string difference(const ModelSummary& a, const ModelSummary& b) {
     if (differ(a.normalized_tangency_deviation, b.normalized_tangency_deviation)) return "tangency deviation";
     if (a.genus != b.genus || a.loops != b.loops) return "genus or loops";
     if (a.unreached_sites != b.unreached_sites) return "unreached sites";
+    if (!a.tables.empty() && !b.tables.empty() &&  // rows of an index have none
+        !std::equal(a.tables.begin(), a.tables.end(), b.tables.begin(), b.tables.end(), same_rows))
+        return "tables";
     return a.seconds == b.seconds ? "" : "seconds";
 }
 

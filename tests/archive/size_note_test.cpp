@@ -21,7 +21,7 @@ TEST(SizeNote, NamesTheFactorNearestToTheRatio) {
         double size;
         const char* words;
     } cases[] = {{1050, "scale: 0.1`"},  {2540, "scale: 0.0393701`"}, {120000, "scale: 0.001`"}, {9, "scale: 10`"},
-                 {0.11, "scale: 1000`"}, {3.9, "scale: 25.4`"},     {10400, "scale: 0.01`"}};
+                 {0.11, "scale: 1000`"}, {3.9, "scale: 25.4`"},       {10400, "scale: 0.01`"}};
     for (const auto& c : cases) {
         const auto notes = size_notes(Sizes{90, 100, c.size, 110, 100}, "unknown");
         EXPECT_NE(notes[2].find(c.words), std::string::npos) << c.size << ": " << notes[2];

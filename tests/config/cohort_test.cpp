@@ -69,6 +69,7 @@ condition: {weld_tolerance: 1e-5, extension_radii: 0, check_self_intersections: 
             speck_share: 0, components: largest, refine_undersampled: false, decimate: 1e-3}
 centerlines: {refine: none, pairs: all, join: centre, topology: network}
 characterize: false
+branches: {enabled: false, step: 0.5, smoothing: 1, section_step: 0.1, patches_along: 4, patches_around: 8}
 run: {threads: 3, models_in_flight: 7, memory: 1.5 GB, model_timeout: 30min, model_memory: 250 MB,
       isolation: process}
 archive: {directory: ../out, precision: float64})"));
@@ -90,6 +91,12 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(task.options.trace.join, Join::kCentre);
     EXPECT_EQ(task.options.trace.topology, Topology::kNetwork);
     EXPECT_FALSE(task.options.characterize);
+    EXPECT_FALSE(task.options.branches.enabled);
+    EXPECT_EQ(task.options.branches.step, 0.5);
+    EXPECT_EQ(task.options.branches.smoothing, 1);
+    EXPECT_EQ(task.options.branches.section_step, 0.1);
+    EXPECT_EQ(task.options.branches.patches_along, 4);
+    EXPECT_EQ(task.options.branches.patches_around, 8);
     EXPECT_EQ(config.run.threads, 3);
     EXPECT_EQ(config.run.models_in_flight, 7);
     EXPECT_EQ(config.run.memory_bytes, 1.5e9);

@@ -215,7 +215,7 @@ json default_json(const KeyInfo& key) {
     if (key.default_value == "[]") return json::array();
     if (key.default_value == "{}") return json::object();
     if (key.default_value == "\"\"") return "";
-    if (key.type == "number" && key.choices.empty()) return std::stod(std::string(key.default_value));
+    if ((key.type == "number" || key.type == "integer") && key.choices.empty()) return std::stod(std::string(key.default_value));
     if (key.type == "boolean") return key.default_value == "true";
     return std::string(key.default_value);
 }

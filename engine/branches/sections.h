@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/branches/section_cutter.h"
+#include "engine/core/branch_options.h"
+#include "engine/core/branch_tables.h"
+#include "engine/core/stage_context.h"
+#include "engine/core/surface.h"
+
+namespace lumenline {
+
+/// Sections across the own parts of all branches: `section_step` mean radii apart, the first and last half of that from
+/// the own part's ends, and one where the axis's radius is least. Where no boundary goes around the axis's point, rows
+/// hold NaN, and the finding section_not_found tells how many.
+/// @param sites  of the surface; empty = no site is known to be near
+/// @cost O(sites + triangles cut)
+SectionTable cut_sections(const Surface& surface, const BranchAxes& branches, const SurfaceBranches& sites,
+                          const BranchOptions& options, StageContext& context);
+
+}  // namespace lumenline
