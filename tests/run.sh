@@ -10,7 +10,7 @@ case "${1:-}" in
     "") ;;
     *) echo "usage: bash tests/run.sh [--all]" >&2; exit 2 ;;
 esac
-bash "$root/examples/setup.sh" build test
+bash "$root/examples/setup.sh" build test browser
 cd "$root"
 cmake --preset release -DLUMENLINE_TESTS=ON -DLUMENLINE_BENCH=ON
 cmake --build --preset release

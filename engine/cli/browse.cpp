@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/cli/serve.h"
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
 #include "engine/core/text.h"
@@ -30,9 +31,11 @@ constexpr int kUsage = 2;
 using enum TextTable::Align;
 
 struct Request {
-    enum class What { kList, kShow, kGet, kTree };
+    enum class What { kList, kShow, kGet, kTree, kServe, kPage };
     What what = What::kList;
-    std::string archive, id, path;
+    std::string archive, id, path, output;
+    ServeOptions serve;
+    PageOptions page;
 };
 
 TextTable table_of(std::initializer_list<const char*> left, std::initializer_list<const char*> right) {
@@ -170,6 +173,12 @@ void print_tree(const ArchiveFile& file, std::ostream& out) {
 
 void browse(const Request& request, std::ostream& out) {
     using What = Request::What;
+    if (request.what == What::kPage) return write_page(request.archive, request.output, request.page);
+    if (request.what == What::kServe)
+        return serve_archive(request.archive, request.serve, [&](const std::string& address) {
+            out << address << std::endl;
+            std::cerr << "Open this address in a browser; Ctrl-C ends the server.\n";
+        });
     if (request.what == What::kList) {
         print_models(out, list_models(request.archive));
         return;
@@ -204,18 +213,31 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     verb->require_subcommand(0, 1);
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 
-    const auto add = [&](const char* name, const char* help, What what) {
+    const auto add_verb = [&](const char* name, const char* help, What what) {
         CLI::App* part = verb->add_subcommand(name, help);
         part->callback([request, what] { request->what = what; });
-        if (what != What::kList) part->add_option("ID", request->id, "model")->required();
         return part;
     };
-    add("list", "table of the models (default)", What::kList);
+    const auto add = [&](const char* name, const char* help, What what) {
+        CLI::App* part = add_verb(name, help, what);
+        part->add_option("ID", request->id, "model")->required();
+        return part;
+    };
+    add_verb("list", "table of the models (default)", What::kList);
     add("show", "attributes, endpoints, lines, characterization and diagnostics of one model", What::kShow);
     add("tree", "groups and datasets of one model", What::kTree);
     add("get", "one dataset, or attribute PATH@name, as tab-separated text", What::kGet)
         ->add_option("PATH", request->path, "dataset, as 'tree' names it")
         ->required();
+
+    add_verb("serve", "show the archive in a browser: table and plots of the cohort, every model in 3D", What::kServe)
+        ->add_option("--port", request->serve.port, "of 127.0.0.1; 0 = 8417, or any free one if that is taken")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    CLI::App* page = add_verb("page", "the same as one HTML file with the archive in it", What::kPage);
+    page->add_option("-o,--output", request->output, "file to write")->required();
+    page->add_option("--model", request->page.models, "only this model comes along; may be repeated");
+    page->add_flag("--empty", request->page.empty, "no archive in it: the page asks for one");
 }
 
 }  // namespace lumenline

@@ -8,8 +8,8 @@ class App;
 
 namespace lumenline {
 
-/// Adds the verb `browse ARCHIVE [list | show ID | get ID PATH | tree ID]`, which prints what an
-/// archive holds to standard output.
+/// Adds the verb `browse ARCHIVE [list | show ID | get ID PATH | tree ID | serve | page]`, which
+/// prints what an archive holds to standard output, or shows it in a browser.
 ///
 /// When the verb was parsed, `action` is set to the function that does it. The function returns
 /// the exit status and throws nothing: 0 done, also when the reader of the output has gone; 1 the

@@ -52,8 +52,9 @@ const std::vector<Library>& libraries() {
         {"OpenMesh", {"OpenMesh/"}, {"engine/condition", "io/mesh"}},
         {"OpenSSL", {"openssl/"}, {"io/mesh"}},
         {"pugixml", {"pugixml"}, {"io/mesh"}},
-        {"zlib", {"zlib.h"}, {"io/mesh"}},
+        {"zlib", {"zlib.h"}, {"io/mesh", "io/viewer"}},
         {"CLI11", {"CLI/"}, {"engine/cli"}},
+        {"cpp-httplib", {"httplib"}, {"engine/cli"}},
         {"VTK", {"vtk"}, {}},
         {"GoogleTest", {"gtest/", "gmock/", "benchmark/"}, {}},
     };
@@ -88,11 +89,11 @@ const std::set<std::string>* visible_from(const std::string& room) {
     static const std::set<std::string> cli = [] {
         std::set<std::string> rooms = schedule;
         rooms.insert({"engine/geometry", "engine/phantom", "engine/population", "engine/schedule", "io/mesh",
-                      "io/archive", "config"});
+                      "io/archive", "io/viewer", "config"});
         return rooms;
     }();
     if (room == "engine/core") return &nothing;
-    if (room == "engine/geometry" || room == "engine/population" || room == "config") return &core;
+    if (room == "engine/geometry" || room == "engine/population" || room == "config" || room == "io/viewer") return &core;
     if (room == "engine/phantom" || stages().contains(room)) return &kernels;
     if (room == "engine/schedule") return &schedule;
     if (room == "engine/cli") return &cli;
@@ -201,8 +202,10 @@ private:
 Tree read_tree(const fs::path& root, const std::vector<std::string>& folders) {
     Tree tree;
     for (const std::string& folder : folders) {
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        for (auto it = fs::recursive_directory_iterator(root / folder); it != fs::recursive_directory_iterator(); ++it) {
+            const fs::directory_entry& entry = *it;
             const fs::path& path = entry.path();
+            if (path.filename() == "node_modules") it.disable_recursion_pending();  // npm's, not ours
             const bool wanted = path.extension() == ".h" || path.extension() == ".cpp" || path.extension() == ".hpp" ||
                                 path.extension() == ".cc" || path.filename() == "CMakeLists.txt";
             if (!entry.is_regular_file() || !wanted) continue;

@@ -1,0 +1,252 @@
+// HDF5 files of an archive behind checks: nothing in them is trusted, and each failure is one sentence with file and
+// path. h5wasm's library reads through the file system of its WebAssembly module; a file appears there as a node whose
+// `read` asks a ByteSource, so that nothing is copied before it is needed. Each file gets a folder of its own: the
+// external links of an index lead nowhere there, since models are opened by their ids.
+import { Dataset, File as H5File, Group, ready, type Attribute } from "h5wasm";
+import type { ByteSource } from "./bytes";
+
+export type Numbers = Float64Array | Float32Array | Int32Array | Uint32Array | Int16Array | Uint16Array | Int8Array | Uint8Array;
+
+/** A failure that one sentence tells. */
+export class ArchiveError extends Error {}
+
+interface Node {
+  usedBytes: number;
+  stream_ops: Record<string, unknown>;
+}
+
+interface EmscriptenFs {
+  mkdir(path: string): void;
+  rmdir(path: string): void;
+  unlink(path: string): void;
+  createFile(parent: string, name: string, properties: object, canRead: boolean, canWrite: boolean): Node;
+}
+
+const kFormatVersion = 1;
+const kHdf5Class = { integer: 0, float: 1, string: 3 };
+const kFarthest = 1e20;  // what the program reads itself
+const kMostBytes = 1.5e9;  // of one dataset: the memory of a WebAssembly module ends at 2 GiB
+let mounted = 0;
+
+/** What is known of a dataset without reading it. */
+export interface DatasetInfo {
+  path: string;
+  shape: number[];
+  kind: "float" | "integer" | "text" | "other";
+  units: string;
+  description: string;
+}
+
+function mount(fs: EmscriptenFs, source: ByteSource, remember: (problem: unknown) => void): string {
+  const folder = `/archive${mounted++}`;
+  fs.mkdir(folder);
+  const node = fs.createFile(folder, "file", {}, true, false);
+  Object.defineProperty(node, "usedBytes", { get: () => source.size });
+  node.stream_ops = {
+    ...node.stream_ops,
+    read(_: unknown, buffer: Int8Array, offset: number, length: number, position: number): number {
+      const count = Math.max(0, Math.min(length, source.size - position));
+      try {
+        source.read(position, new Uint8Array(buffer.buffer, buffer.byteOffset + offset, count));
+      } catch (problem) {
+        remember(problem);  // through the C library it would come out as "read failed"
+        return 0;
+      }
+      return count;
+    },
+  };
+  return folder;
+}
+
+/** One open HDF5 file. */
+export class Hdf5 {
+  private problem: unknown = null;
+  private constructor(readonly name: string) {}
+  private file!: H5File;
+  private fs!: EmscriptenFs;
+  private folder = "";
+
+  /** Throws ArchiveError if the bytes are no HDF5 file, or one of another program. */
+  static async open(name: string, source: ByteSource): Promise<Hdf5> {
+    const made = new Hdf5(name);
+    made.fs = (await ready).FS as unknown as EmscriptenFs;
+    made.folder = mount(made.fs, source, (problem) => (made.problem = problem));
+    try {
+      made.file = made.guarded(() => new H5File(`${made.folder}/file`, "r"), "is no HDF5 file, or is damaged");
+      if (made.file.file_id === BigInt(-1) || Number(made.file.file_id) < 0)
+        throw made.unusable("is no HDF5 file, or is damaged");
+      const format = made.attribute("/", "format");
+      if (format !== "lumenline-cohort" && format !== "lumenline-model")
+        throw made.unusable("is an HDF5 file, but no archive of Lumenline");
+      const version = made.attribute("/", "format_version");
+      if (typeof version !== "number" || version > kFormatVersion)
+        throw made.unusable(`has format version ${version}; this page reads ${kFormatVersion}`);
+    } catch (error) {
+      made.close();
+      throw error;
+    }
+    return made;
+  }
+
+  close(): void {
+    try {
+      this.file?.close();
+      this.fs.unlink(`${this.folder}/file`);
+      this.fs.rmdir(this.folder);
+    } catch {
+      // A file that did not open has nothing to close.
+    }
+  }
+
+  get format(): string {
+    return String(this.attribute("/", "format"));
+  }
+
+  unusable(why: string): ArchiveError {
+    return new ArchiveError(`cannot use '${this.name}': ${why}`);
+  }
+
+  /** Runs a call into HDF5; what the source had to say about a failure comes before what HDF5 says. */
+  private guarded<T>(call: () => T, why: string): T {
+    this.problem = null;
+    let result: T;
+    try {
+      result = call();
+    } catch (error) {
+      if (error instanceof WebAssembly.RuntimeError) throw error;
+      if (this.problem) throw this.problem;
+      throw this.unusable(why);
+    }
+    if (this.problem) throw this.problem;
+    return result;
+  }
+
+  private get(path: string): unknown {
+    return this.guarded(() => this.file.get(path), `${path} cannot be read`);
+  }
+
+  has(path: string): boolean {
+    const found = this.get(path);
+    return found instanceof Dataset || found instanceof Group;
+  }
+
+  isGroup(path: string): boolean {
+    return this.get(path) instanceof Group;
+  }
+
+  /** Names within a group; none if there is no such group. */
+  keys(path: string): string[] {
+    const group = this.get(path);
+    return group instanceof Group ? this.guarded(() => group.keys(), `${path} cannot be read`) : [];
+  }
+
+  attribute(path: string, name: string): string | number | null {
+    const object = path === "/" ? this.file : this.get(path);
+    if (!(object instanceof Group || object instanceof Dataset)) return null;
+    return this.guarded(() => plain(object.attrs[name]), `the attribute ${path}@${name} cannot be read`);
+  }
+
+  attributes(path: string): Record<string, string | number> {
+    const object = path === "/" ? this.file : this.get(path);
+    const found: Record<string, string | number> = {};
+    if (!(object instanceof Group || object instanceof Dataset)) return found;
+    const all = this.guarded(() => object.attrs, `the attributes of ${path} cannot be read`);
+    for (const name of Object.keys(all)) {
+      const value = this.guarded(() => plain(all[name]), `the attribute ${path}@${name} cannot be read`);
+      if (value !== null) found[name] = value;
+    }
+    return found;
+  }
+
+  info(path: string): DatasetInfo | null {
+    const set = this.get(path);
+    if (!(set instanceof Dataset)) return null;
+    const { shape, type } = this.guarded(() => set.metadata, `${path} cannot be read`);
+    const kind = type === kHdf5Class.float ? "float" : type === kHdf5Class.integer ? "integer" : type === kHdf5Class.string ? "text" : "other";
+    const text = (name: string) => String(this.guarded(() => plain(set.attrs[name]), `${path} cannot be read`) ?? "");
+    return { path, shape: shape ?? [], kind, units: text("units"), description: text("description") };
+  }
+
+  /** Numbers of a dataset, row by row; of `expected` many values in all if that is given. */
+  numbers(path: string, expected?: number): Numbers {
+    const set = this.dataset(path);
+    const { type, total_size } = set.metadata;
+    if (type !== kHdf5Class.float && type !== kHdf5Class.integer) throw this.unusable(`${path} does not hold numbers`);
+    this.expect(path, Number(total_size), expected);
+    const value = this.guarded(() => set.value, `${path} cannot be read`);
+    if (value instanceof BigInt64Array || value instanceof BigUint64Array) return Float64Array.from(value, Number);
+    if (typeof value === "number") return Float64Array.of(value);
+    if (typeof value === "bigint") return Float64Array.of(Number(value));
+    if (!ArrayBuffer.isView(value)) throw this.unusable(`${path} cannot be read`);
+    return value as Numbers;
+  }
+
+  /** Coordinates, all of which are finite. */
+  points(path: string, count: number): Numbers {
+    const values = this.numbers(path, 3 * count);
+    for (const value of values)
+      if (!(Math.abs(value) < kFarthest)) throw this.unusable(`${path} has a coordinate that is no number`);
+    return values;
+  }
+
+  /** One row of a dataset of numbers whose first dimension counts rows. */
+  row(path: string, index: number): Numbers {
+    const set = this.dataset(path);
+    const shape = set.metadata.shape ?? [];
+    if (!(index >= 0 && index < (shape[0] ?? 0))) throw this.unusable(`${path} has no row ${index}`);
+    const value = this.guarded(() => set.slice([[index, index + 1]]), `${path} cannot be read`);
+    if (value instanceof BigInt64Array || value instanceof BigUint64Array) return Float64Array.from(value, Number);
+    if (!ArrayBuffer.isView(value)) throw this.unusable(`${path} does not hold numbers`);
+    return value as Numbers;
+  }
+
+  strings(path: string, expected?: number): string[] {
+    const set = this.dataset(path);
+    const { type, total_size } = set.metadata;
+    if (type !== kHdf5Class.string) throw this.unusable(`${path} does not hold text`);
+    this.expect(path, Number(total_size), expected);
+    if (Number(total_size) === 0) return [];
+    const value = this.guarded(() => set.value, `${path} cannot be read`);
+    return typeof value === "string" ? [value] : (value as string[]).map(String);
+  }
+
+  /** Indices of a dataset, each at least `least` and below `end`. */
+  indices(path: string, least: number, end: number, expected?: number): Int32Array {
+    const values = this.numbers(path, expected);
+    for (const value of values)
+      if (!(value >= least && value < end && Number.isInteger(value)))
+        throw this.unusable(`${path} points beyond what there is`);
+    return values instanceof Int32Array ? values : Int32Array.from(values);
+  }
+
+  /** Offsets of `items` items into `end` values: they ascend from 0 to `end`. */
+  offsets(path: string, end: number): Int32Array {
+    const values = this.indices(path, 0, end + 1);
+    for (let i = 1; i < values.length; ++i)
+      if (values[i]! < values[i - 1]!) throw this.unusable(`${path} does not ascend`);
+    if (values.length === 0 || values[0] !== 0 || values[values.length - 1] !== end)
+      throw this.unusable(`${path} does not cover its values`);
+    return values;
+  }
+
+  private dataset(path: string): Dataset {
+    const found = this.get(path);
+    if (!(found instanceof Dataset)) throw this.unusable(`there is no dataset ${path}`);
+    const { total_size, size } = this.guarded(() => found.metadata, `${path} cannot be read`);
+    if (Number(total_size) * Number(size) > kMostBytes) throw this.unusable(`${path} is too large for a browser`);
+    return found;
+  }
+
+  private expect(path: string, count: number, expected: number | undefined): void {
+    if (expected !== undefined && count !== expected)
+      throw this.unusable(`${path} has ${count} values where ${expected} belong`);
+  }
+}
+
+function plain(attribute: Attribute | undefined): string | number | null {
+  let value = attribute?.value ?? null;
+  if (ArrayBuffer.isView(value)) value = (value as Int32Array)[0] ?? null;
+  if (Array.isArray(value)) value = (value[0] as string) ?? null;
+  if (typeof value === "bigint") return Number(value);
+  return typeof value === "string" || typeof value === "number" ? value : null;
+}

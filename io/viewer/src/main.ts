@@ -1,0 +1,42 @@
+// Where the archive comes from: it may be within the page, beside it on the server, or still to be chosen.
+import "uplot/dist/uPlot.min.css";
+import "./ui/theme.css";
+import { App } from "./app";
+import { useTheme } from "./ui/theme";
+
+/** Files of an archive that stand in the page as base64, each in a block of data that no browser runs. */
+function embedded(): { files: Map<string, Uint8Array>; root: string; name: string } | null {
+  const blocks = document.querySelectorAll<HTMLScriptElement>("script[data-lumenline-file]");
+  if (blocks.length === 0) return null;
+  const files = new Map<string, Uint8Array>();
+  let [root, name] = ["", ""];
+  for (const block of blocks) {
+    const path = block.dataset.lumenlineFile!;
+    const text = atob(block.textContent!.trim());
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    files.set(path, bytes);
+    root ||= path;
+    name ||= block.dataset.lumenlineName ?? path;
+    block.remove();
+  }
+  return { files, root, name };
+}
+
+async function begin(): Promise<void> {
+  useTheme();
+  const app = new App(document.getElementById("app")!);
+  const inside = embedded();
+  if (inside) return app.open({ kind: "embedded", ...inside });
+  if (!location.protocol.startsWith("http")) return app.start();
+  try {
+    const answer = await fetch("archive.json");
+    if (!answer.ok) return app.start();
+    const { root, name } = (await answer.json()) as { root: string; name: string };
+    return app.open({ kind: "served", base: new URL("archive/", location.href).href, root, name });
+  } catch {
+    return app.start();
+  }
+}
+
+void begin();

@@ -1,0 +1,90 @@
+// Geometries made of lines: tubes around polylines, whose frames are carried along without twist.
+import * as THREE from "three";
+
+const kSides = 10;
+
+export interface Tubes {
+  geometry: THREE.BufferGeometry;
+  /** Gives each point's value to its ring. */
+  setValues(values: Float32Array | null): void;
+}
+
+/** Tubes of one radius around the polylines [offsets[i], offsets[i+1]) of `points`. */
+export function tubes(points: Float32Array, offsets: ArrayLike<number>, radius: number): Tubes {
+  const count = points.length / 3;
+  const position = new Float32Array(count * kSides * 3);
+  const normal = new Float32Array(count * kSides * 3);
+  const index: number[] = [];
+  const [at, before, after, tangent, side, up] = Array.from({ length: 6 }, () => new THREE.Vector3()) as [
+    THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3];
+  for (let line = 0; line + 1 < offsets.length; ++line) {
+    const [first, end] = [offsets[line]!, offsets[line + 1]!];
+    side.set(0, 0, 0);
+    for (let k = first; k < end; ++k) {
+      at.fromArray(points, 3 * k);
+      before.fromArray(points, 3 * Math.max(first, k - 1));
+      after.fromArray(points, 3 * Math.min(end - 1, k + 1));
+      tangent.subVectors(after, before);
+      if (tangent.lengthSq() > 0) tangent.normalize();
+      else tangent.set(0, 0, 1);
+      carry(side, tangent);
+      up.crossVectors(tangent, side);
+      for (let s = 0; s < kSides; ++s) {
+        const angle = (2 * Math.PI * s) / kSides;
+        const [c, d] = [Math.cos(angle), Math.sin(angle)];
+        const v = 3 * (k * kSides + s);
+        for (let axis = 0; axis < 3; ++axis) {
+          const n = c * side.getComponent(axis) + d * up.getComponent(axis);
+          normal[v + axis] = n;
+          position[v + axis] = at.getComponent(axis) + radius * n;
+        }
+      }
+      if (k + 1 < end) ring(index, k);
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
+  const value = new THREE.BufferAttribute(new Float32Array(count * kSides), 1);
+  geometry.setAttribute("value", value);
+  geometry.setIndex(index);
+  return {
+    geometry,
+    setValues(values) {
+      const ring = value.array as Float32Array;
+      for (let k = 0; k < count; ++k) ring.fill(values ? values[k]! : 0, k * kSides, (k + 1) * kSides);
+      value.needsUpdate = true;
+    },
+  };
+}
+
+/** Turns `side` to stand across `tangent`, as little as possible. */
+function carry(side: THREE.Vector3, tangent: THREE.Vector3): void {
+  side.addScaledVector(tangent, -side.dot(tangent));
+  if (side.lengthSq() < 1e-12) {
+    const axis = Math.abs(tangent.x) < 0.6 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 1, 0);
+    side.crossVectors(tangent, axis);
+  }
+  side.normalize();
+}
+
+function ring(index: number[], k: number): void {
+  for (let s = 0; s < kSides; ++s) {
+    const [a, b] = [k * kSides + s, k * kSides + ((s + 1) % kSides)];
+    index.push(a, a + kSides, b, b, a + kSides, b + kSides);
+  }
+}
+
+/** A geometry of vertices with one value each. */
+export function valued(points: Float32Array, normals: Float32Array | null, index: Uint32Array): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  if (normals) geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.setAttribute("value", new THREE.BufferAttribute(new Float32Array(points.length / 3), 1));
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  return geometry;
+}
+
+export function setValues(geometry: THREE.BufferGeometry, values: Float32Array): void {
+  geometry.setAttribute("value", new THREE.BufferAttribute(values, 1));
+}

@@ -1,0 +1,74 @@
+// One self-contained page: script, style and worker go into index.html, which states a content-security policy with
+// the hashes of just these; then the page is compressed by a library of fixed version, so that the bytes depend on
+// package-lock.json and the sources alone.
+import { createHash } from "node:crypto";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { resolve } from "node:path";
+import { gzipSync } from "fflate";
+import { defineConfig, type Plugin } from "vite";
+
+const hash = (text: string) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
+
+/** The policy of the page. WebAssembly is compiled by h5wasm in the worker, which starts from a blob. */
+function policy(script: string, style: string): string {
+  return [
+    "default-src 'none'",
+    `script-src ${hash(script)} 'wasm-unsafe-eval'`,
+    `style-src ${hash(style)}`,
+    "worker-src blob:",
+    "img-src data: blob:",
+    "connect-src 'self'",
+    "base-uri 'none'",
+    "form-action 'none'",
+  ].join("; ");
+}
+
+function onePage(): Plugin {
+  return {
+    name: "one-page",
+    apply: "build",
+    enforce: "post",
+    generateBundle(_, bundle) {
+      let script = "";
+      let style = "";
+      for (const [name, item] of Object.entries(bundle)) {
+        if (item.type === "chunk" && item.isEntry) script = item.code;
+        else if (item.type === "asset" && name.endsWith(".css")) style = String(item.source);
+        else if (name !== "index.html") this.error(`the page is to be one file, and ${name} stands beside it`);
+      }
+      const page = bundle["index.html"];
+      if (page?.type !== "asset" || !script || !style) return this.error("script, style or page is missing");
+      // What ends a script element or begins a comment in it can stand in strings and patterns only.
+      script = script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
+      style = style.trim();
+      const rules = policy(script, style);
+      const head = `<meta http-equiv="Content-Security-Policy" content="${rules}" />\n    <style>${style}</style>`;
+      const html = String(page.source)
+        .replace(/\s*<script type="module"[^>]*><\/script>/, "")
+        .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
+        .replace("<meta charset=\"utf-8\" />", () => `<meta charset="utf-8" />\n    ${head}`)
+        .replace(/\s*<\/body>/, () => `\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
+      for (const name of Object.keys(bundle)) delete bundle[name];
+      const folder = resolve(process.env.LUMENLINE_PAGE_FOLDER ?? "built");
+      mkdirSync(folder, { recursive: true });
+      writeFileSync(resolve(folder, "page.html.gz"), gzipSync(new TextEncoder().encode(html), { level: 9, mtime: 0 }));
+      writeFileSync(resolve(folder, "page.csp"), rules + "; frame-ancestors 'none'\n");
+    },
+  };
+}
+
+export default defineConfig({
+  base: "./",
+  plugins: [onePage()],
+  esbuild: { charset: "utf8", legalComments: "none" },
+  build: {
+    target: "es2022",
+    modulePreload: false,
+    cssCodeSplit: false,
+    assetsInlineLimit: 0,
+    chunkSizeWarningLimit: 10000,
+    reportCompressedSize: false,
+    write: false,
+  },
+  worker: { format: "iife" }, // a page opened as a file may not start module workers
+});

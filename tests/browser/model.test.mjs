@@ -1,0 +1,171 @@
+// The model view: every look is drawn, a click on the wall gives its values, plot and scene move together, and a link
+// brings the view back.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { archives, chromium, content, decode, difference, drawn, hostileId, openPage, picture, serve } from "./support.mjs";
+
+let browser, server, page, problems;
+before(async () => {
+  browser = await chromium();
+  server = await serve(join(archives, "good"), "--port", "0");
+  ({ page, problems } = await openPage(browser));
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+async function open(id) {
+  await page.goto(`${server.address}#/`);
+  await page.waitForSelector("table.models");
+  await page.goto(`${server.address}#/model/${encodeURIComponent(id)}`);
+  await drawn(page);
+}
+
+/** The scene once it has settled after `act`. */
+async function after_(act, name) {
+  const ready = await page.locator(".scene").getAttribute("data-ready");
+  await act();
+  await page.waitForFunction((before) => document.querySelector(".scene").dataset.ready !== before, ready);
+  await drawn(page);
+  return picture(page.locator(".scene"), name);
+}
+
+const look = (name) => page.getByRole("radio", { name }).click();
+
+test("every look is drawn, and each unlike the others", async () => {
+  await open("stenosis");
+  const shown = [await picture(page.locator(".scene"), "model-lines")];
+  for (const name of ["Surface", "Balls", "Arrival time", "Distance"])
+    shown.push(await after_(() => look(name), `model-${name.toLowerCase().replace(" ", "-")}`));
+  for (const [i, one] of shown.entries()) {
+    const { share, colours } = content(one);
+    assert.ok(share > 0.03 && colours > 12, `look ${i}: ${share} of the scene, ${colours} colours`);
+    for (const other of shown.slice(0, i)) assert.ok(difference(one, other) > 0.01, "looks are told apart");
+  }
+});
+
+test("colour bars state quantity, unit and range", async () => {
+  await open("stenosis");
+  assert.match(await page.locator(".bars").innerText(), /Lines: Radius \[mm\]/);
+  await after_(() => look("Surface"), "model-surface");
+  assert.match(await page.locator(".bars").innerText(), /Wall: Tangency deviation NTD/);
+  const scene = await picture(page.locator(".scene"), "model-surface-viridis");
+  const other = await after_(() => page.locator(".field", { hasText: "Colour map" }).locator("select").selectOption("magma"), "model-surface-magma");
+  assert.ok(difference(scene, other) > 0.03, "another map, other colours");
+  for (const key of ["geodesic_distance", "euclidean_distance", "abscissa", "centerline_id", "line_clearance"]) {
+    const shown = await after_(() => page.locator("section", { hasText: "Opacity" }).locator("select").selectOption(key), `model-by-${key}`);
+    assert.ok(content(shown).share > 0.03, key);
+  }
+});
+
+test("a click on the wall gives the values there, its pole, and the place on the line", async () => {
+  await open("stenosis");
+  const before = await picture(page.locator(".scene"), "model-unpicked");
+  const box = await page.locator(".scene canvas").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.3);
+  await page.waitForSelector(".picked h2");
+  const text = await page.locator(".picked").innerText();
+  assert.match(text, /Site \d+/);
+  for (const name of ["D_g", "D_e", "NTD", "Abscissa", "ball at the pole"]) assert.ok(text.includes(name), name);
+  await page.waitForTimeout(500);
+  const picked = await picture(page.locator(".scene"), "model-picked");
+  assert.ok(difference(before, picked) > 0.005, "the pole and its ball are drawn");
+  // The site's abscissa is where the mark went.
+  const abscissa = Number(/Abscissa\n([\d.]+) mm/.exec(text)[1]);
+  const mark = Number(/s = ([\d.]+)/.exec(await page.locator(".readout").innerText())[1]);
+  assert.ok(Math.abs(abscissa - mark) < 1.5, `${abscissa} and ${mark}`);
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => !document.querySelector(".picked h2"));
+});
+
+test("slider, plot and ball move together: the throat is where the radius is least", async () => {
+  await open("stenosis");
+  const slider = page.getByRole("slider", { name: "place along the line" });
+  await slider.fill("0.5");
+  assert.match(await page.locator(".readout").innerText(), /s = 2[45][\d.]* mm, {1,2}r = 2\.[45]/);
+  const middle = await picture(page.locator(".scene"), "model-throat");
+  await slider.fill("0.05");
+  assert.match(await page.locator(".readout").innerText(), /r = (4\.9|5)/);
+  await page.waitForTimeout(300);
+  assert.ok(difference(middle, await picture(page.locator(".scene"), "model-inlet")) > 0.003);
+  const over = page.locator(".profile .u-over");
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  assert.match(await page.locator(".readout").innerText(), /s = 2[45]/);
+  assert.ok(content(await picture(page.locator(".profile"), "model-profile")).share > 0.01);
+});
+
+test("a link brings the view back", async () => {
+  await open("stenosis");
+  await after_(() => look("Distance"), "model-link-look");
+  await page.locator(".scene canvas").focus();
+  for (const key of ["ArrowRight", "ArrowRight", "ArrowUp", "+"]) await page.keyboard.press(key);
+  await page.locator(".scene canvas").blur();
+  await page.waitForTimeout(600);
+  const wanted = await picture(page.locator(".scene"), "model-link-made");
+  const link = page.url();
+  assert.match(link, /cam=/);
+  const other = await openPage(browser);
+  await other.page.goto(link);
+  await drawn(other.page);
+  await other.page.waitForTimeout(300);
+  assert.ok(difference(wanted, await picture(other.page.locator(".scene"), "model-link-restored")) < 0.002);
+  assert.deepEqual(other.problems, []);
+  await other.page.close();
+});
+
+test("addresses that make no sense show the model as usual", async () => {
+  await page.goto(`${server.address}#/`);
+  await page.goto(`${server.address}#/model/stenosis?opacity=x&line=77&at=9&map=rainbow&balls=many&wallBy=nothing&cam=1,2&site=99999999`);
+  await drawn(page);
+  assert.ok(content(await picture(page.locator(".scene"), "model-odd-address")).share > 0.03);
+});
+
+test("a picture is saved with its colour bar", async () => {
+  await open("stenosis");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Picture" }).click()]);
+  assert.equal(download.suggestedFilename(), "stenosis.png");
+  const saved = decode(readFileSync(await download.path()));
+  assert.ok(saved.width > 1000);
+  assert.ok(content(saved).colours > 20);
+});
+
+test("keys turn, look and step", async () => {
+  await open("tree");
+  const first = await picture(page.locator(".scene"), "tree");
+  await page.locator(".scene canvas").focus();
+  await page.keyboard.press("5");
+  await page.waitForTimeout(400);
+  assert.ok(difference(first, await picture(page.locator(".scene"), "tree-from-above")) > 0.02);
+  const line = page.getByRole("combobox", { name: "line", exact: true });
+  const chosen = await line.inputValue();
+  await page.keyboard.press("l");
+  assert.notEqual(await line.inputValue(), chosen);
+  const at = await page.locator(".readout").innerText();
+  await page.keyboard.press(".");
+  assert.notEqual(await page.locator(".readout").innerText(), at);
+  await after_(() => page.keyboard.press("v"), "tree-next-look");
+  await page.keyboard.press("]");
+  await page.waitForURL((url) => !url.hash.startsWith("#/model/tree"));
+  await drawn(page);
+});
+
+test("ends are named, and a name that is markup stays text", async () => {
+  await open(hostileId);
+  assert.equal(await page.locator(".info h1").innerText(), hostileId);
+  assert.equal(await page.locator("main img, main script").count(), 0);
+  assert.match((await page.locator(".labels .end").allTextContents()).join(" "), /inlet 0/);
+});
+
+test("a model that failed shows its sentence", async () => {
+  await page.goto(`${server.address}#/`);
+  await page.goto(`${server.address}#/model/broken`);
+  await page.waitForSelector(".info h1");
+  assert.match(await page.locator(".info").innerText(), /broken\.ply/);
+  assert.match(await page.locator(".middle").innerText(), /no geometry/);
+});
+
+test("nothing went wrong on the way", () => assert.deepEqual(problems, []));
