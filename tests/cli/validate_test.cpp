@@ -41,6 +41,23 @@ TEST(Validate, BadSurfaceIsASentenceAndStatusOneAndTheOthersAreChecked) {
     EXPECT_EQ(lines[5], "3 ok, 0 with warnings, 1 failed");
 }
 
+TEST(Validate, ModelInAnotherUnitIsFlaggedBelowTheOthers) {
+    const fs::path folder = small_cohort();
+    std::string text = read_text(folder / "cohort.yaml");
+    const std::string surface = "surface: bend.ply";
+    ASSERT_NE(text.find(surface), std::string::npos) << text;
+    write_text(folder / "cohort.yaml", text.replace(text.find(surface), surface.size(), surface + ", scale: 10"));
+    const Finished finished = validate(folder);
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    const std::vector<std::string> lines = lines_of(finished.out);
+    ASSERT_EQ(lines.size(), 8U) << finished.out;
+    EXPECT_NE(lines[1].find("bend    ok "), std::string::npos) << lines[1];
+    EXPECT_NE(lines[4].find(std::string("bend    warning  ") + "unlikely_unit" + ": its size of "), std::string::npos)
+        << lines[4];
+    EXPECT_NE(lines[4].find("`scale: 0.1` would mend that"), std::string::npos) << lines[4];
+    EXPECT_EQ(lines[6], "3 ok, 1 with warnings, 0 failed");
+}
+
 TEST(Validate, WrongConfigurationIsStatusTwo) {
     const fs::path folder = small_cohort();
     write_text(folder / "cohort.yaml", "cohort: c\nmodles: []\n");
