@@ -292,6 +292,9 @@ private:
         b.last_join = distance(draft_.graph.position[b.last], course_point(b.courses.back(), false));
         b.first_direction = direction(b.courses.front(), true);
         b.last_direction = direction(b.courses.back(), false);
+        if (b.own_length() > 0) return;
+        b.first_direction = normalized(draft_.graph.position[b.last] - draft_.graph.position[b.first]);
+        b.last_direction = -b.first_direction;
     }
 
     void make_pieces() {

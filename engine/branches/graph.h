@@ -28,6 +28,7 @@ struct BranchCourse {
     /// Relative difference of the extent to that of the next in order among its siblings, the smaller of both sides;
     /// NaN without siblings.
     double order_margin = std::numeric_limits<double>::quiet_NaN();
+    /// Without an own part that of the straight way between the nodes; zero where they are one place.
     Vec3 first_direction, last_direction;  ///< of the own part's ends, away from their nodes, unit
 
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

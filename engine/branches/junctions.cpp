@@ -28,7 +28,7 @@ struct Arm {
 };
 
 double angle_between(Vec3 a, Vec3 b) { return kDegrees * std::atan2(norm(cross(a, b)), dot(a, b)); }
-double elevation(Vec3 d, Vec3 normal) { return kDegrees * std::asin(std::clamp(dot(d, normal), -1.0, 1.0)); }
+double elevation(Vec3 d, Vec3 normal) { return kDegrees * std::atan2(dot(d, normal), norm(cross(d, normal))); }
 
 /// Normal of the plane through the origin that the directions are nearest to.
 Vec3 fitted_normal(std::initializer_list<Vec3> directions) {
@@ -61,10 +61,11 @@ double diameter_next_to(const BranchLines& axes, std::size_t branch, bool first)
 
 std::vector<Arm> arms_at(const GraphDraft& draft, const BranchLines& axes, std::size_t node) {
     std::vector<Arm> arms;
+    const auto known = [](Vec3 direction) { return squared_norm(direction) > 0 ? direction : Vec3{kNaN, kNaN, kNaN}; };
     for (std::size_t b = 0; b < draft.branches.size(); ++b) {
         const BranchCourse& c = draft.branches[b];
-        if (c.last == node) arms.push_back({b, false, c.last_direction, diameter_next_to(axes, b, false)});
-        if (c.first == node) arms.push_back({b, true, c.first_direction, diameter_next_to(axes, b, true)});
+        if (c.last == node) arms.push_back({b, false, known(c.last_direction), diameter_next_to(axes, b, false)});
+        if (c.first == node) arms.push_back({b, true, known(c.first_direction), diameter_next_to(axes, b, true)});
     }
     // The parent is the first branch that comes to the node: branches are numbered in this order.
     const auto parent = std::find_if(arms.begin(), arms.end(), [](const Arm& a) { return !a.first; });

@@ -16,22 +16,22 @@ namespace {
 constexpr std::size_t kDirections = 72;  // of chords: every five degrees
 constexpr int kMostSteps = 1000;         // of a walk towards a plane
 
-double cross2(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-Vec2 minus(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+double cross2(PlanePoint a, PlanePoint b) { return a.x * b.y - a.y * b.x; }
+PlanePoint minus(PlanePoint a, PlanePoint b) { return {a.x - b.x, a.y - b.y}; }
 
 /// Distances from `centre` to the loop in all directions; the nearest crossing where there are several.
-std::array<double, kDirections> distances_around(const std::vector<Vec2>& loop, Vec2 centre) {
+std::array<double, kDirections> distances_around(const std::vector<PlanePoint>& loop, PlanePoint centre) {
     constexpr double kStep = 2 * std::numbers::pi / kDirections;
     std::array<double, kDirections> distance;
     distance.fill(std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        Vec2 a = minus(loop[i], centre), b = minus(loop[(i + 1) % loop.size()], centre);
+        PlanePoint a = minus(loop[i], centre), b = minus(loop[(i + 1) % loop.size()], centre);
         if (cross2(a, b) < 0) std::swap(a, b);
         double begin = std::atan2(a.y, a.x) / kStep, end = std::atan2(b.y, b.x) / kStep;
         if (end < begin) end += kDirections;
         for (int k = static_cast<int>(std::ceil(begin)); k <= static_cast<int>(std::floor(end)); ++k) {
-            const Vec2 d{std::cos(k * kStep), std::sin(k * kStep)};
-            const Vec2 e = minus(b, a);
+            const PlanePoint d{std::cos(k * kStep), std::sin(k * kStep)};
+            const PlanePoint e = minus(b, a);
             const double across = cross2(d, e);
             if (across == 0) continue;
             const std::size_t slot = static_cast<std::size_t>(k + 2 * static_cast<int>(kDirections)) % kDirections;
@@ -41,9 +41,10 @@ std::array<double, kDirections> distances_around(const std::vector<Vec2>& loop, 
     return distance;
 }
 
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-    std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    std::vector<Vec2> hull;
+std::vector<PlanePoint> convex_hull(std::vector<PlanePoint> points) {
+    std::sort(points.begin(), points.end(),
+              [](PlanePoint a, PlanePoint b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<PlanePoint> hull;
     const auto add_chain = [&hull](auto begin, auto end) {
         const std::size_t base = hull.size();
         for (auto p = begin; p != end; ++p) {
@@ -60,12 +61,12 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 }
 
 /// By calipers: the least width is across one of the hull's edges.
-double least_width(const std::vector<Vec2>& hull) {
+double least_width(const std::vector<PlanePoint>& hull) {
     const std::size_t n = hull.size();
     if (n < 3) return 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0, far = 1; i < n; ++i) {
-        const Vec2 e = minus(hull[(i + 1) % n], hull[i]);
+        const PlanePoint e = minus(hull[(i + 1) % n], hull[i]);
         const auto away = [&](std::size_t k) { return cross2(e, minus(hull[k % n], hull[i])); };
         while (away(far + 1) > away(far)) ++far;
         least = std::min(least, away(far) / std::hypot(e.x, e.y));
@@ -172,10 +173,10 @@ SectionLoop SectionCutter::search(const SectionPlane& plane) const {
     return best;
 }
 
-bool surrounds_origin(const std::vector<Vec2>& loop) {
+bool surrounds_origin(const std::vector<PlanePoint>& loop) {
     int turns = 0;  // crossings of the positive x axis
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
+        const PlanePoint a = loop[i], b = loop[(i + 1) % loop.size()];
         if ((a.y >= 0) == (b.y >= 0)) continue;
         const double side = cross2(a, b);
         if (a.y < 0 && side > 0) ++turns;
@@ -184,12 +185,12 @@ bool surrounds_origin(const std::vector<Vec2>& loop) {
     return turns == 1;
 }
 
-SectionMeasures measure_loop(const std::vector<Vec2>& loop) {
+SectionMeasures measure_loop(const std::vector<PlanePoint>& loop) {
     SectionMeasures m;
-    Vec2 moment;
-    const Vec2 base = loop.front();
+    PlanePoint moment;
+    const PlanePoint base = loop.front();
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 a = minus(loop[i], base), b = minus(loop[(i + 1) % loop.size()], base);
+        const PlanePoint a = minus(loop[i], base), b = minus(loop[(i + 1) % loop.size()], base);
         const double twice = cross2(a, b);
         m.area += 0.5 * twice;
         moment = {moment.x + twice * (a.x + b.x) / 6, moment.y + twice * (a.y + b.y) / 6};

@@ -9,7 +9,7 @@
 namespace lumenline {
 
 /// Point in the plane of a section [length].
-struct Vec2 {
+struct PlanePoint {
     double x = 0, y = 0;
 };
 
@@ -20,9 +20,9 @@ struct SectionPlane {
 
 /// Boundary of the part of the lumen that a plane cuts around its origin.
 struct SectionLoop {
-    std::vector<Vec2> points;  ///< counter-clockwise about the normal; empty = not found
-    SiteId site;               ///< of the surface, next to it
-    bool wall = false;         ///< all of it is wall: no triangle belongs to an extension or cap
+    std::vector<PlanePoint> points;  ///< counter-clockwise about the normal; empty = not found
+    SiteId site;                     ///< of the surface, next to it
+    bool wall = false;               ///< all of it is wall: no triangle belongs to an extension or cap
 };
 
 /// Cuts a closed surface by planes, walking from triangle to triangle. Const use from several threads at once.
@@ -58,13 +58,13 @@ private:
 /// What a loop encloses.
 struct SectionMeasures {
     double area = 0, perimeter = 0;             ///< [length^2], [length]
-    Vec2 centroid;                              ///< [length]
+    PlanePoint centroid;                        ///< [length]
     double min_diameter = 0, max_diameter = 0;  ///< chords through the centroid, in steps of five degrees [length]
     double least_width = 0;  ///< least distance of two parallel lines that hold it between them [length]
 };
-SectionMeasures measure_loop(const std::vector<Vec2>& loop);
+SectionMeasures measure_loop(const std::vector<PlanePoint>& loop);
 
 /// Does the loop go once around the origin, counter-clockwise?
-bool surrounds_origin(const std::vector<Vec2>& loop);
+bool surrounds_origin(const std::vector<PlanePoint>& loop);
 
 }  // namespace lumenline

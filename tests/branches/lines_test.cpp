@@ -107,9 +107,29 @@ TEST(Split, LineWithinAnotherHasNoBranch) {
     const Branches found = find_branches(Surface(), test::centerlines_of(lines), nullptr, {}, context);
     EXPECT_EQ(found.graph.branch_count(), 3U);
     EXPECT_TRUE(test::has_finding(context.diagnostics(), "line_within_another"));
+    EXPECT_TRUE(test::has_finding(context.diagnostics(), "section_not_found")) << "there is no surface";
+    EXPECT_TRUE(std::isnan(found.sections.area.front()));
+    EXPECT_EQ(found.sections.closed.front(), 0);
     const std::size_t last = found.points.branch.size() - 1;  // of the line that is left out
     EXPECT_EQ(found.points.branch[last], BranchId(1));
     EXPECT_NEAR(found.points.branch_abscissa[last], 4, 0.2);
+}
+
+TEST(Split, LinesThatPartAtTheInletLeaveARootWithoutMeasures) {
+    std::vector<PlainLine> lines{straight({0, 0, 0}, {12, 0, 0}, 1), straight({0, 0, 0}, {0, 10, 0}, 1)};
+    lines[0].target = 1;
+    lines[1].target = 2;
+    StageContext context(Stage::kBranches);
+    const Branches found = find_branches(Surface(), test::centerlines_of(lines), nullptr, {}, context);
+    ASSERT_EQ(found.graph.branch_count(), 3U);
+    EXPECT_TRUE(test::has_finding(context.diagnostics(), "branch_without_own_part"));
+    EXPECT_EQ(found.table.own_length[0], 0);
+    for (const double missing :
+         {found.table.taper[0], found.table.radius[0].mean, found.table.curvature[0].mean, found.stenoses.diameter[0],
+          found.dilations.ratio[0], found.bifurcations.area_ratio[0], found.bifurcations.murray_exponent[0]})
+        EXPECT_TRUE(std::isnan(missing));
+    EXPECT_NEAR(found.bifurcations.angle_between[0], 90, 0.1);
+    EXPECT_FALSE(std::isnan(found.lines.frame[found.lines.offsets[1]].x));
 }
 
 /// A ring with a stem and a way out; its far side is closed by two lines that meet off the middle.

@@ -13,8 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-std::vector<Vec2> ellipse(double a, double b, Vec2 centre, int count) {
-    std::vector<Vec2> loop;
+std::vector<PlanePoint> ellipse(double a, double b, PlanePoint centre, int count) {
+    std::vector<PlanePoint> loop;
     for (int k = 0; k < count; ++k)
         loop.push_back({centre.x + a * std::cos(2 * pi * k / count), centre.y + b * std::sin(2 * pi * k / count)});
     return loop;
@@ -38,12 +38,12 @@ TEST(Loop, LeastWidthOfATriangleIsItsLeastHeight) {
 }
 
 TEST(Loop, OnlyOneTurnCounterClockwiseSurrounds) {
-    std::vector<Vec2> loop = ellipse(2, 1, {0, 0}, 12);
+    std::vector<PlanePoint> loop = ellipse(2, 1, {0, 0}, 12);
     EXPECT_TRUE(surrounds_origin(loop));
     EXPECT_FALSE(surrounds_origin({loop.rbegin(), loop.rend()})) << "a hole";
     EXPECT_FALSE(surrounds_origin(ellipse(2, 1, {3, 0}, 12)));
     EXPECT_FALSE(surrounds_origin({}));
-    const std::vector<Vec2> once = loop;
+    const std::vector<PlanePoint> once = loop;
     loop.insert(loop.end(), once.begin(), once.end());
     EXPECT_FALSE(surrounds_origin(loop)) << "twice around";
 }

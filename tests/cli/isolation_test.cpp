@@ -127,8 +127,8 @@ TEST(Isolation, CrashFailsItsModelAndTheOthersComplete) {
     EXPECT_NE(crashed.err.find("signal 11 (SIGSEGV)"), std::string::npos) << crashed.err;
     EXPECT_EQ(failure(folder, "code"), "crashed");
     EXPECT_EQ(failure(folder, "signal"), "11");
-    const std::vector<std::string> stages{"load",    "condition", "voronoi",      "endpoints",
-                                          "eikonal", "trace",     "characterize", "archive"};
+    const std::vector<std::string> stages{"load",  "condition",    "voronoi",  "endpoints", "eikonal",
+                                          "trace", "characterize", "branches", "archive"};
     EXPECT_TRUE(std::ranges::count(stages, failure(folder, "stage")) == 1) << failure(folder, "stage");
     EXPECT_TRUE(small_ones_stand(folder));
     EXPECT_TRUE(temporary_files(folder).empty());
