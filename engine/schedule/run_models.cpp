@@ -8,8 +8,10 @@
 // failure and its release; and when its surface is read, and again when it is conditioned, what the model takes is put
 // right. What it sends to `load` says only that there is work, which is then taken from a queue in the order of
 // admission: a thread runs its newest task first, and a large model admitted early would otherwise be begun last. The
-// sources of a model count down; the last one sends it on. Bodies never throw: an exception that leaves a node cancels
-// the graph, and with it every other model. The graph is built inside its arena, or it would run on one thread.
+// sources of a model count down; the last one sends it on. The writer is a thread outside the arena, because it waits
+// for the disk: a thread of the arena would be a core with nothing to do meanwhile. Bodies never throw: an exception
+// that leaves a node cancels the graph, and with it every other model. The graph is built inside its arena, or it would
+// run on one thread.
 #include "engine/schedule/run_models.h"
 
 #include <tbb/concurrent_queue.h>
@@ -21,9 +23,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
+#include <stop_token>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -102,7 +109,9 @@ public:
                         [](const JobPtr& job) { return step(job, [&] { job->characterize(); }); }),
           branches_(graph_, flow::unlimited,
                     [](const JobPtr& job) { return step(job, [&] { job->find_branches(); }); }),
-          writer_(graph_, flow::serial, [this](const JobPtr& job) { return write(*job); }) {
+          writer_(graph_, flow::unlimited,
+                  [this](const JobPtr& job, WriterNode::gateway_type& gateway) { hand_to_writer(job, gateway); }),
+          writing_thread_([this](const std::stop_token& stop) { write_all(stop); }) {
         flow::make_edge(flow::output_port<0>(admission_), load_);
         flow::make_edge(load_, condition_);
         flow::make_edge(condition_, voronoi_);
@@ -135,6 +144,7 @@ private:
     using FanOut = flow::multifunction_node<JobPtr, std::tuple<SourceOfJob, JobPtr>>;
     using Solver = flow::multifunction_node<SourceOfJob, std::tuple<JobPtr>>;
     using StageNode = flow::function_node<JobPtr, JobPtr>;
+    using WriterNode = flow::async_node<JobPtr, Release>;
 
     [[nodiscard]] bool stopped() const {
         return sink_failed_ || (options_.cancelled != nullptr && options_.cancelled->load());
@@ -214,7 +224,36 @@ private:
         if (source.first->last_source_done()) std::get<0>(ports).try_put(source.first);
     }
 
-    /// Hands the record on and frees its place.
+    struct ToWrite {
+        JobPtr job;
+        WriterNode::gateway_type* gateway;
+    };
+
+    void hand_to_writer(const JobPtr& job, WriterNode::gateway_type& gateway) {
+        gateway.reserve_wait();
+        {
+            const std::lock_guard lock(writing_);
+            to_write_.push_back({job, &gateway});
+        }
+        to_write_more_.notify_one();
+    }
+
+    /// Of the writer's thread.
+    void write_all(const std::stop_token& stop) {
+        std::unique_lock lock(writing_);
+        while (to_write_more_.wait(lock, stop, [this] { return !to_write_.empty(); })) {
+            ToWrite next = std::move(to_write_.front());
+            to_write_.pop_front();
+            lock.unlock();
+            const Release release = write(*next.job);
+            next.job.reset();
+            next.gateway->try_put(release);
+            next.gateway->release_wait();
+            lock.lock();
+        }
+    }
+
+    /// Hands the record on.
     Release write(AdmittedJob& job) {
         taken(&job);
         const Handover scope(this);
@@ -257,7 +296,12 @@ private:
     FanOut fan_out_;
     Solver eikonal_;
     StageNode trace_, characterize_, branches_;
-    flow::function_node<JobPtr, Release> writer_;
+    WriterNode writer_;
+
+    std::mutex writing_;  // of the queue
+    std::condition_variable_any to_write_more_;
+    std::deque<ToWrite> to_write_;
+    std::jthread writing_thread_;  // last: it is joined before the others go
 };
 
 }  // namespace
