@@ -98,10 +98,8 @@ test("a click on a point opens its model", async () => {
   await page.locator("table.models td.id", { hasText: "stenosis" }).hover();
   const plot = page.locator(".plot").nth(0);
   const box = await plot.boundingBox();
-  const tip = await plot.locator(".tip").evaluate((element) => ({ left: element.style.left, right: element.style.right, top: element.style.top }));
-  // The tip stands 12 pixels beside its point.
-  const x = tip.left ? parseFloat(tip.left) - 12 : box.width - parseFloat(tip.right) - 12;
-  await page.mouse.click(box.x + x, box.y + parseFloat(tip.top));
+  const point = await plot.locator(".tip").evaluate((tip) => ({ x: Number(tip.dataset.x), y: Number(tip.dataset.y) }));
+  await page.mouse.click(box.x + point.x, box.y + point.y);
   await page.waitForURL(/#\/model\/stenosis/);
   await page.waitForSelector(".scene[data-ready]");
   await page.goBack();

@@ -24,7 +24,7 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
         EXPECT_EQ(help.status, 0) << part;
         EXPECT_NE(help.out.find("Exit status"), std::string::npos) << part;
     }
-    for (const char* part : {"list", "show", "tree", "get"}) {
+    for (const char* part : {"list", "show", "tree", "get", "serve", "page"}) {
         const Finished help = run_lumenline({"browse", "archive", part, "--help"}, fresh_folder());
         EXPECT_EQ(help.status, 0) << part;
         EXPECT_NE(help.out.find("Usage"), std::string::npos) << part;
@@ -75,6 +75,9 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"browse"}, "ARCHIVE"},
         {{"browse", "archive", "show"}, "ID"},
         {{"browse", "archive", "get", "id"}, "PATH"},
+        {{"browse", "archive", "serve", "--port", "http"}, "--port"},
+        {{"browse", "archive", "serve", "--port", "65536"}, "--port"},
+        {{"browse", "archive", "page"}, "--output"},
         {{"phantom"}, "KIND"},
         {{"phantom", "cylinder"}, "--output"},
         {{"phantom", "torus", "-o", "a.ply", "--voxel", "0"}, "--voxel"},

@@ -44,7 +44,7 @@ export class App {
   private readonly nav = h("nav", { "aria-label": "views" });
   private readonly title = h("span", { class: "archive-name" });
   private readonly progress = h("span", { class: "progress", role: "status" });
-  private written = "";
+  private written: string | null = null; // what this program put there itself
 
   constructor(root: Element) {
     const themeButton = h("button", { type: "button", class: "quiet", on: { click: () => (nextTheme(), name()) } });
@@ -123,7 +123,7 @@ export class App {
 
   private route(): void {
     if (!this.cohort) return;
-    this.written = "";
+    this.written = null;
     const { view, ids, state } = parseRoute(location.hash);
     this.navigate(view, ids);
     if (view === "model") this.show(new ModelView(this, ids[0] ?? "", state));

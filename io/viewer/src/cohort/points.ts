@@ -65,8 +65,8 @@ export class PointPlot {
     this.drawn.redraw();
   }
 
-  /** Where a model's point is on the canvas; for tests and tips. */
-  position(row: number): Placed | undefined {
+  /** Where a model's point is on the canvas. */
+  private position(row: number): Placed | undefined {
     return this.placed.find((point) => point.row === row);
   }
 
@@ -220,6 +220,7 @@ export class PointPlot {
     const point = this.position(this.hovered);
     this.tip.hidden = !point;
     if (!point) return;
+    Object.assign(this.tip.dataset, { x: Math.round(point.x), y: Math.round(point.y) });
     this.tip.replaceChildren(...this.events.describe(point.row).map((text, i) => h(i === 0 ? "strong" : "span", {}, text)));
     const right = point.x > this.drawn.width / 2;
     this.tip.style.left = right ? "" : `${point.x + 12}px`;
