@@ -77,7 +77,6 @@ export interface MarkedTable {
   name: string;
   table: Table;
   points: Float32Array | null; // (rows, 3): where the rows are
-  radius: Float32Array | null;
   outlines: { points: Float32Array; offsets: Int32Array } | null; // closed curves of the rows
 }
 

@@ -225,7 +225,7 @@ export class PointPlot {
     const right = point.x > this.drawn.width / 2;
     this.tip.style.left = right ? "" : `${point.x + 12}px`;
     this.tip.style.right = right ? `${this.drawn.width - point.x + 12}px` : "";
-    this.tip.style.top = `${Math.min(point.y, this.drawn.height - 50)}px`;
+    this.tip.style.top = `${Math.min(point.y, this.drawn.height - 72)}px`;
   }
 }
 

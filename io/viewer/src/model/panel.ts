@@ -15,7 +15,7 @@ const options = (fields: Field[], none: string) =>
   [["", none] as const, ...fields.map((field) => [field.key, fieldText(field)] as const)];
 
 const kMarkNames: Record<string, string> = {
-  branches: "Branches", bifurcations: "Bifurcations", sections: "Sections", stenoses: "Stenoses", loops: "Loops",
+  branches: "Branches", bifurcations: "Bifurcations", sections: "Sections", stenoses: "Stenoses", dilations: "Dilations", loops: "Loops",
 };
 export const markName = (name: string): string => kMarkNames[name] ?? name;
 
