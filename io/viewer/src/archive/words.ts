@@ -49,5 +49,5 @@ export function columnLabel(name: string): string {
   return name.replaceAll("_", " ");
 }
 
-/** Units as text behind a number; nothing for plain numbers. */
-export const unitText = (units: string): string => (units === "1" || units === "" ? "" : units);
+/** Units as text behind a number; nothing for plain numbers, and where the archive does not know the unit of length. */
+export const unitText = (units: string): string => (units === "1" || units.includes("unknown") ? "" : units);

@@ -1,6 +1,8 @@
 // Elements are made here and nowhere else: text of the archive reaches the page as text nodes and attributes, never as
 // markup. Styles that depend on data are set through the object model, which the content-security policy allows.
 
+import { unitText } from "../archive/words";
+
 export type Child = Node | string | number | null | undefined | false | Child[];
 
 interface Props {
@@ -73,7 +75,7 @@ export function number(x: number | undefined | null): string {
 }
 
 export const withUnits = (x: number, units: string): string =>
-  units && units !== "1" && !Number.isNaN(x) ? `${number(x)} ${units}` : number(x);
+  unitText(units) && !Number.isNaN(x) ? `${number(x)} ${unitText(units)}` : number(x);
 
 /** Gives `name` to the user as a file. */
 export function download(blob: Blob, name: string): void {
