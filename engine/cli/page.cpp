@@ -55,7 +55,7 @@ std::vector<Part> parts_of(const std::filesystem::path& archive, const ArchiveFi
                            const std::vector<std::string>& wanted) {
     std::vector<Part> parts{{files.root(), files.open(files.root())}};
     if (!std::filesystem::is_directory(archive)) return parts;
-    for (const std::string& id : wanted) find_model(archive, id);
+    for (const std::string& id : wanted) open_model(archive, id);
     const std::set<std::string> only(wanted.begin(), wanted.end());
     for (const ModelSummary& model : list_models(archive)) {
         if (!only.empty() && !only.contains(model.identity.id)) continue;

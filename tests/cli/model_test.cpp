@@ -145,11 +145,12 @@ TEST(Model, PrecisionConcernsFieldsOnly) {
                   0);
     const auto single = hdf_contents(folder / "float32.hdf"), full = hdf_contents(folder / "float64.hdf");
     EXPECT_EQ(differences(single, full),
-              (std::vector<std::string>{"/@id", "/@inputs_sha256", "/surface/abscissa", "/surface/descent_length",
-                                        "/surface/euclidean_distance", "/surface/geodesic_distance",
-                                        "/surface/geodesic_distance_refined", "/surface/normalized_tangency_deviation",
-                                        "/surface/normalized_tangency_deviation_refined", "/voronoi/arrival_time",
-                                        "/voronoi/centerline_distance"}));
+              (std::vector<std::string>{
+                  "/@id", "/@inputs_sha256", "/surface/abscissa", "/surface/angle", "/surface/branch_abscissa",
+                  "/surface/branch_abscissa_relative", "/surface/descent_length", "/surface/euclidean_distance",
+                  "/surface/geodesic_distance", "/surface/geodesic_distance_refined",
+                  "/surface/normalized_tangency_deviation", "/surface/normalized_tangency_deviation_refined",
+                  "/voronoi/arrival_time", "/voronoi/centerline_distance"}));
 }
 
 TEST(Browse, ClosedPipeIsNoError) {
