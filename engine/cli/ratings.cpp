@@ -19,8 +19,7 @@ void add_ratings(const std::filesystem::path& ratings, DataTable& table) {
     const std::size_t id = column("id"), rating = column("rating");
     std::map<std::string, std::string> rating_of;
     for (const DelimitedTable::Row& row : given.rows) rating_of[row.cells[id]] = row.cells[rating];
-    const DataColumn* key = table.find("model");
-    if (key == nullptr) key = table.find("id");
+    const DataColumn* key = table.find("id");
     std::vector<std::string> values(table.rows);
     if (key != nullptr && !key->is_number())
         for (std::size_t i = 0; i < table.rows; ++i)

@@ -88,11 +88,10 @@ class Cohort(_Closing):
         frame = pandas.DataFrame(columns)
         frame.attrs["units"] = {key: _text(group[key].attrs.get("units", b"")) for key in group}
         frame.attrs["definitions"] = {key: _text(group[key].attrs.get("description", b"")) for key in group}
-        key = next((k for k in ("model", "id") if k in frame), None)
-        if name == "models" or key is None:
+        if name == "models" or "id" not in frame:
             return frame
         models = self.table("models").set_index("id")
-        joined = frame.join(models[[c for c in models if c not in frame]], on=key)
+        joined = frame.join(models[[c for c in models if c not in frame]], on="id")
         joined.attrs = frame.attrs
         return joined
 

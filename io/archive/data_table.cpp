@@ -13,7 +13,7 @@ namespace lumenline {
 namespace {
 
 constexpr std::string_view kTables = "/tables/";
-constexpr std::string_view kModelKey = "model";  // of tables with more than one row a model
+constexpr std::string_view kModelKey = "id";
 
 DataColumn read_column(const ArchiveFile& file, const ArchiveNode& node, std::string name) {
     DataColumn column{std::move(name), node.units, node.description, false, {}};
@@ -71,10 +71,9 @@ DataTable read_data_table(const std::filesystem::path& archive, const std::strin
     DataTable own = read_own(file, table);
     const std::string all = std::string(names::kModelTable).substr(kTables.size());
     const DataColumn* key = own.find(kModelKey);
-    if (key == nullptr) key = own.find("id");
     if (table == all || key == nullptr || key->is_number()) return own;
     const DataTable models = read_own(file, all);
-    const DataColumn* ids = models.find("id");
+    const DataColumn* ids = models.find(kModelKey);
     if (ids == nullptr || ids->is_number()) return own;
     std::map<std::string, std::size_t> row_of;
     for (std::size_t i = 0; i < models.rows; ++i) row_of.emplace(ids->texts()[i], i);

@@ -39,7 +39,9 @@ void expect_helix(double a, double rise) {
         // The last window at either end reaches past it: it is moved inside, and of lower degree.
         const bool inner = axis.abscissa[k] > 10 && axis.abscissa[k] < axis.length(0) - 10;
         EXPECT_NEAR(axis.curvature[k] * k2 / a, 1, inner ? 0.01 : 0.1);
-        if (inner) EXPECT_NEAR(axis.torsion[k] * k2, rise, rise != 0 ? 0.01 * std::fabs(rise) : 0.01 * a);
+        if (inner) {
+            EXPECT_NEAR(axis.torsion[k] * k2, rise, rise != 0 ? 0.01 * std::fabs(rise) : 0.01 * a);
+        }
         EXPECT_NEAR(dot(axis.normal[k], axis.tangent[k]), 0, 1e-9);
     }
     EXPECT_NEAR(found.table.curvature[0].median * k2 / a, 1, 0.01);

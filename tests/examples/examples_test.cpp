@@ -47,8 +47,9 @@ TEST_P(Example, KeepsEveryPromise) {
     const ModelRecord record = compute(GetParam());
     std::set<std::string> codes;
     for (const Diagnostic& d : record.diagnostics) codes.insert(d.code);
-    if (const auto expected = kFindings.find(GetParam()); expected != kFindings.end())
+    if (const auto expected = kFindings.find(GetParam()); expected != kFindings.end()) {
         for (const std::string& code : expected->second) EXPECT_TRUE(codes.contains(code)) << code;
+    }
     const Broken broken = check_model(record);
     EXPECT_TRUE(broken.empty()) << listed(broken);
     for (const Diagnostic& d : record.diagnostics)
