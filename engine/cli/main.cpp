@@ -7,6 +7,7 @@
 #include "config/cohort.h"
 #include "engine/cli/browse.h"
 #include "engine/cli/isolated.h"
+#include "engine/cli/export.h"
 #include "engine/cli/pack.h"
 #include "engine/cli/phantom.h"
 #include "engine/cli/run.h"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
     add_browse(app, action);
     add_stats(app, action);
     add_pack(app, action);
+    add_export(app, action);
     add_phantom(app, action);
     add_worker(app, action);
     try {

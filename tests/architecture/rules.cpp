@@ -50,7 +50,7 @@ const std::vector<Library>& libraries() {
         {"HDF5", {"hdf5", "H5"}, {"io/archive"}},
         {"yaml-cpp", {"yaml-cpp/"}, {"config"}},
         {"OpenMesh", {"OpenMesh/"}, {"engine/condition", "io/mesh"}},
-        {"OpenSSL", {"openssl/"}, {"io/mesh"}},
+        {"OpenSSL", {"openssl/"}, {"io/mesh", "io/export"}},
         {"pugixml", {"pugixml"}, {"io/mesh"}},
         {"zlib", {"zlib.h"}, {"io/mesh", "io/viewer"}},
         {"CLI11", {"CLI/"}, {"engine/cli"}},
@@ -89,7 +89,7 @@ const std::set<std::string>* visible_from(const std::string& room) {
     static const std::set<std::string> cli = [] {
         std::set<std::string> rooms = schedule;
         rooms.insert({"engine/geometry", "engine/phantom", "engine/population", "engine/schedule", "io/mesh",
-                      "io/archive", "io/viewer", "config"});
+                      "io/archive", "io/export", "io/viewer", "config"});
         return rooms;
     }();
     if (room == "engine/core") return &nothing;
@@ -97,7 +97,7 @@ const std::set<std::string>* visible_from(const std::string& room) {
     if (room == "engine/phantom" || stages().contains(room)) return &kernels;
     if (room == "engine/schedule") return &schedule;
     if (room == "engine/cli") return &cli;
-    if (room == "io/mesh" || room == "io/archive") return &io;
+    if (room == "io/mesh" || room == "io/archive" || room == "io/export") return &io;
     return nullptr;
 }
 
