@@ -15,7 +15,7 @@ mkdir -p "$build/findings"
 for reader in "${readers[@]}"; do
     mkdir -p "$build/work/$reader"
     log=$build/$reader.log
-    if ! "$build/tests/fuzz/fuzz_$reader" -max_total_time="$seconds" -max_len=8192 -timeout=20 -rss_limit_mb=2048 \
+    if ! "$build/tests/fuzz/fuzz_$reader" -seed=1 -max_total_time="$seconds" -max_len=8192 -timeout=20 -rss_limit_mb=2048 \
         -print_final_stats=1 -artifact_prefix="$build/findings/$reader-" \
         "$build/work/$reader" "$root/tests/fuzz/corpus/$reader" >"$log" 2>&1; then
         tail -n 60 "$log" >&2
