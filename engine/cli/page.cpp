@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstdint>
-#include <fstream>
+#include <ostream>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -99,17 +99,11 @@ void write_page(const std::filesystem::path& archive, const std::filesystem::pat
     if (mark == std::string::npos) throw std::runtime_error("the built-in page is damaged: build the program again");
     const std::vector<Part> parts = options.empty ? std::vector<Part>{} : parts_of(archive, files, options.models);
     require_small(parts);
-    std::ofstream out(temporary_of(file), std::ios::binary);
-    out << std::string_view(html).substr(0, mark);
-    for (const Part& part : parts) write_part(part, files.name(), out);
-    out << std::string_view(html).substr(mark + kArchiveMark.size());
-    out.close();
-    if (!out) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary_of(file), ignored);
-        throw std::runtime_error("cannot write '" + printable(file.string()) + "'");
-    }
-    commit_file(file);
+    write_file(file, [&](std::ostream& out) {
+        out << std::string_view(html).substr(0, mark);
+        for (const Part& part : parts) write_part(part, files.name(), out);
+        out << std::string_view(html).substr(mark + kArchiveMark.size());
+    });
 }
 
 }  // namespace lumenline

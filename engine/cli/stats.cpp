@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/cli/ratings.h"
+#include "engine/cli/run.h"
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
 #include "engine/core/text.h"
@@ -25,10 +26,6 @@
 namespace lumenline {
 
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kDamaged = 1;
-constexpr int kUsage = 2;
 
 struct Request {
     std::string archive, table = "models", format = "text", ratings;
@@ -211,7 +208,7 @@ int run(const Request& request) {
         return kUsage;
     } catch (const ArchiveError& error) {
         say(error);
-        return kDamaged;
+        return kModelFailed;
     }
 }
 

@@ -7,7 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <system_error>
+
+#include "io/archive/utf8.h"
 
 namespace lumenline {
 
@@ -37,6 +40,26 @@ void commit_file(const std::filesystem::path& file) {
     std::filesystem::rename(temporary, file);
     // Some network file systems cannot sync a directory (EINVAL); the rename stands all the same.
     sync_path(file.has_parent_path() ? file.parent_path() : ".", O_RDONLY | O_DIRECTORY, true);
+}
+
+void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& body) {
+    const std::filesystem::path temporary = temporary_of(file);
+    const auto require = [&](bool written) {
+        if (!written)
+            throw std::system_error(errno, std::generic_category(), "cannot write '" + printable(file.string()) + "'");
+    };
+    std::ofstream out(temporary, std::ios::binary);
+    require(out.is_open());
+    try {
+        body(out);
+        out.close();
+        require(out.good());
+        commit_file(file);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw;
+    }
 }
 
 }  // namespace lumenline

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 
 namespace lumenline {
 
@@ -12,5 +14,9 @@ std::filesystem::path temporary_of(const std::filesystem::path& file);
 /// older file, or none, or the complete new one.
 /// @throws std::system_error
 void commit_file(const std::filesystem::path& file);
+
+/// Makes `file` appear with what `body` writes, as commit_file does. Nothing is left behind where that fails.
+/// @throws std::system_error "cannot write '<file>': why"; what `body` throws
+void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& body);
 
 }  // namespace lumenline

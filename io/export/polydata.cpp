@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <system_error>
+#include <ostream>
 
 #include "io/archive/commit.h"
 
@@ -57,15 +55,7 @@ void write_cells(std::ostream& out, const char* kind, const PolyDataCells& cells
     out << "</" << kind << ">\n";
 }
 
-}  // namespace
-
-void write_polydata(const std::filesystem::path& file, const PolyData& data) {
-    const std::filesystem::path temporary = temporary_of(file);
-    const auto failed = [&] {
-        throw std::system_error(errno, std::generic_category(), "'" + temporary.string() + "'");
-    };
-    std::ofstream out(temporary, std::ios::binary);
-    if (!out) failed();
+void write_document(std::ostream& out, const PolyData& data) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
            "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\""
         << data.points.size() / 3 << "\" NumberOfVerts=\"0\" NumberOfLines=\"" << data.lines.offsets.size()
@@ -79,9 +69,12 @@ void write_polydata(const std::filesystem::path& file, const PolyData& data) {
     write_cells(out, "Lines", data.lines);
     write_cells(out, "Polys", data.polygons);
     out << "</Piece>\n</PolyData>\n</VTKFile>\n";
-    out.close();
-    if (!out) failed();
-    commit_file(file);
+}
+
+}  // namespace
+
+void write_polydata(const std::filesystem::path& file, const PolyData& data) {
+    write_file(file, [&data](std::ostream& out) { write_document(out, data); });
 }
 
 }  // namespace lumenline

@@ -1,12 +1,9 @@
 #include "io/export/tables.h"
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
-#include <system_error>
 
 #include "engine/core/text.h"
 #include "io/archive/commit.h"
@@ -17,19 +14,6 @@ namespace lumenline {
 namespace {
 
 constexpr std::string_view kTables = "/tables/";
-
-void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& body) {
-    const std::filesystem::path temporary = temporary_of(file);
-    const auto failed = [&] {
-        throw std::system_error(errno, std::generic_category(), "'" + temporary.string() + "'");
-    };
-    std::ofstream out(temporary, std::ios::binary);
-    if (!out) failed();
-    body(out);
-    out.close();
-    if (!out) failed();
-    commit_file(file);
-}
 
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == text.npos) return text;
