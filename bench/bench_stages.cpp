@@ -41,7 +41,7 @@ MergedVertices merge(const Surface& surface, const InsideCells& cells, const Pip
 
 VoronoiComplex polygons(const Surface& surface, const InsideCells& cells, const MergedVertices& merged) {
     VoronoiComplex complex;
-    build_polygons(cells, merged, complex);
+    build_polygons(cells, merged, complex, StageContext(Stage::kVoronoi));
     bridge_gaps(surface, cells, merged, complex);
     return complex;
 }

@@ -4,8 +4,10 @@
 // to vertices would spoil T~ by half a polygon everywhere.
 #include "engine/characterize/characterize.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/characterize/descent.h"
 #include "engine/characterize/medial_ball.h"
@@ -19,6 +21,8 @@ namespace lumenline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Sites of a range, and the most ranges: each has a table of the sites of its own.
+constexpr std::size_t kGrain = 8192, kMostRanges = 32;
 
 std::vector<double> march_from_paths(const VoronoiComplex& complex, const PathPieces& pieces, MarchWorkspace& work,
                                      const StageContext& context) {
@@ -51,17 +55,16 @@ public:
         result_.centerline_point.assign(n, {kNaN, kNaN, kNaN});
         result_.centerline_id.assign(n, {});
         result_.zone.resize(n);
-        MedialBalls balls(surface_, complex_);
+        const SiteSurroundings around(surface_, complex_);
         Descent descent(complex_, pieces_, lines_.path, work_);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i % 16384 == 0) context_.check_cancelled();
-            result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;
-            if (const VoronoiVertexId pole = complex_.pole[i]; !pole.is_none())
-                if (const DescentEnd end = descent.from(pole); end.reached()) {
-                    place(i, pole, end);
-                    refine(i, result_.zone[i] == SiteZone::kAdded ? BallCentre() : balls.at_site(SiteId(i)), descent);
-                }
-        }
+        const std::size_t grain = std::max(kGrain, n / kMostRanges + 1);
+        std::vector<std::size_t> not_refined(n / grain + 1, 0);
+        context_.parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+            MedialBalls balls(surface_, complex_, around);
+            for (std::size_t i = begin; i < end; ++i)
+                if (!character_of(i, balls, descent)) ++not_refined[begin / grain];
+        });
+        result_.not_refined = std::accumulate(not_refined.begin(), not_refined.end(), std::size_t{0});
         summarize_wall(surface_, result_);
         result_.jumps = count_jumps(surface_, complex_, result_);
         report();
@@ -69,6 +72,18 @@ public:
     }
 
 private:
+    /// @returns false where a site of the wall keeps the values of the paper's pole for want of a better ball
+    bool character_of(std::size_t i, MedialBalls& balls, Descent& descent) {
+        result_.zone[i] = surface_.origin[i] == SiteOrigin::kWall ? SiteZone::kWall : SiteZone::kAdded;
+        const VoronoiVertexId pole = complex_.pole[i];
+        if (pole.is_none()) return true;
+        const DescentEnd end = descent.from(pole);
+        if (!end.reached()) return true;
+        place(i, pole, end);
+        const BallCentre centre = result_.zone[i] == SiteZone::kAdded ? BallCentre() : balls.at_site(SiteId(i));
+        return refine(i, centre, descent) || result_.zone[i] != SiteZone::kWall;
+    }
+
     void report() {
         const auto [sheet, meet, other] = result_.jumps;
         if (result_.unreached > 0)
@@ -102,17 +117,17 @@ private:
         if (result_.zone[i] == SiteZone::kWall && in_end_zone(end.foot)) result_.zone[i] = SiteZone::kEndZone;
     }
 
-    void refine(std::size_t i, const BallCentre& centre, const Descent& descent) {
+    bool refine(std::size_t i, const BallCentre& centre, const Descent& descent) {
         const double first = centre.found() ? distance(surface_.points[i], centre.x) : 0;
         const double second = centre.found() ? descent.distance_at(centre.polygon, centre.x, first) : kNaN;
         if (!(second < std::numeric_limits<double>::infinity())) {
             result_.geodesic_distance_refined[i] = result_.geodesic_distance[i];
             result_.normalized_tangency_deviation_refined[i] = result_.normalized_tangency_deviation[i];
-            if (result_.zone[i] == SiteZone::kWall) ++result_.not_refined;
-            return;
+            return false;
         }
         result_.geodesic_distance_refined[i] = first + second;
         result_.normalized_tangency_deviation_refined[i] = second / (first + second);
+        return true;
     }
 
     static double along(const std::vector<double>& values, const PathFoot& foot) {

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace lumenline {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t kUnknown = ~0U;
 constexpr double kTogether = 2;  // edge lengths between two descents that go on as one
 
 }  // namespace
@@ -27,7 +27,19 @@ Descent::Descent(const VoronoiComplex& complex, const PathPieces& pieces, const 
       path_(path),
       time_(march.time),
       through_(march.through),
-      known_(complex.vertex_count(), kUnknown) {}
+      state_(complex.vertex_count()),
+      ends_(complex.vertex_count()) {}
+
+void Descent::store(VoronoiVertexId v, const DescentEnd& end) {
+    std::atomic<State>& state = state_[at(v)];
+    State expected = State::kUnknown;
+    if (state.compare_exchange_strong(expected, State::kBeingStored, std::memory_order_acq_rel)) {
+        ends_[at(v)] = end;
+        state.store(State::kKnown, std::memory_order_release);
+        return;
+    }
+    while (!known(v)) std::this_thread::yield();  // another thread has the same end in hand, and copies it
+}
 
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {
     if (pieces_.crosses(p)) {
@@ -85,7 +97,7 @@ Descent::Step Descent::first_step(VoronoiVertexId v, const Here& here) const {
 }
 
 bool Descent::joined(const ComplexPoint& place, DescentEnd& end) const {
-    const DescentEnd &a = ends_[known_[at(place.a)]], &b = ends_[known_[at(place.b)]];
+    const DescentEnd &a = ends_[at(place.a)], &b = ends_[at(place.b)];
     if (!a.reached() || a.foot.line != b.foot.line) return false;
     const auto along = [&](const PathFoot& foot) {
         const double from = path_.abscissa[foot.point];
@@ -113,7 +125,7 @@ bool Descent::walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, Desc
     Here here = arrive({v, v, 0});
     double length = 0;
     const auto need = [&](VoronoiVertexId w) {
-        if (known_[at(w)] == kUnknown) needed.push_back(w);
+        if (!known(w)) needed.push_back(w);
     };
     for (Step step = first_step(v, here);; step = best_step(here)) {
         if (step.place.a.is_none()) {
@@ -126,7 +138,7 @@ bool Descent::walk(VoronoiVertexId v, std::vector<VoronoiVertexId>& needed, Desc
         if (step.place.is_vertex()) {
             need(step.place.a);
             if (!needed.empty()) return false;
-            end = ends_[known_[at(step.place.a)]];
+            end = ends_[at(step.place.a)];
             end.length += length;
             return true;
         }
@@ -149,17 +161,16 @@ DescentEnd Descent::from(VoronoiVertexId v) {
         const VoronoiVertexId top = stack.back();
         DescentEnd end;
         needed.clear();
-        if (known_[at(top)] != kUnknown) {
+        if (known(top)) {
             stack.pop_back();
         } else if (walk(top, needed, end)) {
-            known_[at(top)] = static_cast<std::uint32_t>(ends_.size());
-            ends_.push_back(end);
+            store(top, end);
             stack.pop_back();
         } else {
             stack.insert(stack.end(), needed.begin(), needed.end());
         }
     }
-    return ends_[known_[at(v)]];
+    return ends_[at(v)];
 }
 
 double Descent::distance_at(PolygonId p, Vec3 x, double radius) const {

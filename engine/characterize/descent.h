@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,7 +22,7 @@ struct DescentEnd {
 /// Steepest descent of T~ on the complex down to a path (Antiga et al. 2003, section 2.2), as trace_back.cpp does for
 /// T: from the point reached, the best next point is the one on the edges of the polygons around it, or on a path in
 /// one of them, that minimises T~ there plus the distance between the two. Ends are remembered per vertex, so that
-/// descents that meet in a vertex are walked once.
+/// descents that meet in a vertex are walked once. Several threads may ask at once: each end is the same whoever walks.
 class Descent {
 public:
     /// @param march  with T~ and its ways, as the march leaves it; all must outlive the descent
@@ -64,12 +66,20 @@ private:
     /// Continues from a point of an edge between the descents of its ends; false where they part.
     bool joined(const ComplexPoint& place, DescentEnd& end) const;
 
+    enum class State : std::uint8_t { kUnknown, kBeingStored, kKnown };
+
+    [[nodiscard]] bool known(VoronoiVertexId v) const {
+        return state_[at(v)].load(std::memory_order_acquire) == State::kKnown;
+    }
+    /// Remembers the end of the descent from v; returns when it is known, to whichever thread.
+    void store(VoronoiVertexId v, const DescentEnd& end);
+
     const VoronoiComplex& complex_;
     const PathPieces& pieces_;
     const PathLines& path_;
     std::span<const double> time_;
     std::span<const PolygonId> through_;
-    std::vector<std::uint32_t> known_;  ///< per vertex, into ends_; kUnknown
+    std::vector<std::atomic<State>> state_;  ///< per vertex, of its place in ends_
     std::vector<DescentEnd> ends_;
 };
 

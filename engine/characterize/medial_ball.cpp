@@ -17,8 +17,8 @@
 
 namespace lumenline {
 
-MedialBalls::MedialBalls(const Surface& surface, const VoronoiComplex& complex)
-    : surface_(surface), complex_(complex), fit_(surface), offsets_(surface.site_count() + 1, 0) {
+SiteSurroundings::SiteSurroundings(const Surface& surface, const VoronoiComplex& complex)
+    : neighbours_(surface), offsets_(surface.site_count() + 1, 0) {
     for (const auto& sites : complex.polygon_sites)
         for (const SiteId s : sites)
             if (!s.is_none()) ++offsets_[at(s) + 1];
@@ -30,8 +30,11 @@ MedialBalls::MedialBalls(const Surface& surface, const VoronoiComplex& complex)
             if (!s.is_none()) polygons_[next[at(s)]++] = PolygonId(p);
 }
 
+MedialBalls::MedialBalls(const Surface& surface, const VoronoiComplex& complex, const SiteSurroundings& around)
+    : surface_(surface), complex_(complex), around_(around), fit_(surface, around.neighbours()) {}
+
 void MedialBalls::gather(SiteId site) {
-    candidates_.assign(polygons_of(site).begin(), polygons_of(site).end());
+    candidates_.assign(around_.polygons_of(site).begin(), around_.polygons_of(site).end());
     const auto leads_across = [&](PolygonId q) {
         const auto [s, t] = complex_.polygon_sites[at(q)];
         return !fit_.is_near(s) || !fit_.is_near(t);
@@ -40,7 +43,7 @@ void MedialBalls::gather(SiteId site) {
     const std::size_t own = candidates_.size();
     for (const auto ring : {fit_.first_ring(), fit_.second_ring()}) {
         for (const SiteId neighbour : ring)
-            std::ranges::copy_if(polygons_of(neighbour), std::back_inserter(candidates_), leads_across);
+            std::ranges::copy_if(around_.polygons_of(neighbour), std::back_inserter(candidates_), leads_across);
         if (candidates_.size() > own) return;
     }
 }

@@ -20,7 +20,8 @@ using Vector = Eigen::Matrix<double, kTerms, 1>;
 
 }  // namespace
 
-SurfaceFit::SurfaceFit(const Surface& surface) : surface_(surface), ring_(surface), stamp_(surface.site_count(), 0) {}
+SurfaceFit::SurfaceFit(const Surface& surface, const SiteNeighbours& ring)
+    : surface_(surface), ring_(ring), stamp_(surface.site_count(), 0) {}
 
 void SurfaceFit::gather(SiteId site) {
     ++turn_;

@@ -20,8 +20,8 @@ struct LocalShape {
 /// of the quadric to second order; spheres are met exactly.
 class SurfaceFit {
 public:
-    /// Keeps a reference. @cost O(triangles)
-    explicit SurfaceFit(const Surface& surface);
+    /// Keeps references; one per thread. @cost O(sites)
+    SurfaceFit(const Surface& surface, const SiteNeighbours& ring);
 
     /// @returns the vertex normal without curvature where the neighbours do not determine a quadric
     /// @cost 0.5 us
@@ -38,7 +38,7 @@ private:
     void gather(SiteId site);
 
     const Surface& surface_;
-    SiteNeighbours ring_;
+    const SiteNeighbours& ring_;
     std::vector<std::uint32_t> stamp_;
     std::uint32_t turn_ = 0;
     std::vector<SiteId> near_;  ///< of the last site, without itself: its first ring, then the second

@@ -123,18 +123,18 @@ std::vector<std::uint32_t> curve_order(const std::vector<Vec3>& centres, const s
 }
 
 /// Gives every group of flat cells that hang together the centre of the first cell beside it that is not flat.
-void settle_flat_cells(InsideCells& cells, const std::vector<bool>& flat) {
+void settle_flat_cells(InsideCells& cells, const std::vector<std::uint8_t>& flat) {
     std::vector<bool> seen(cells.count(), false);
     std::vector<std::uint32_t> group;
     for (std::uint32_t start = 0; start < cells.count(); ++start) {
-        if (!flat[start] || seen[start]) continue;
+        if (flat[start] == 0 || seen[start]) continue;
         std::uint32_t firm = InsideCells::kOutside;
         group.assign(1, start);
         seen[start] = true;
         for (std::size_t i = 0; i < group.size(); ++i)
             for (const std::uint32_t n : cells.neighbours[group[i]]) {
-                if (n == InsideCells::kOutside || (flat[n] && seen[n])) continue;
-                if (!flat[n]) {
+                if (n == InsideCells::kOutside || (flat[n] != 0 && seen[n])) continue;
+                if (flat[n] == 0) {
                     firm = std::min(firm, n);
                     continue;
                 }
@@ -187,17 +187,60 @@ bool leaves_lumen(const InsideCells& cells, const std::vector<double>& around, c
     return false;
 }
 
-void cut_edges(InsideCells& cells, const std::vector<SiteFrame>& frames, const InsideTest& test) {
+void cut_edges(InsideCells& cells, const std::vector<SiteFrame>& frames, const InsideTest& test,
+               const StageContext& context) {
     const std::vector<double> around = longest_around(cells, frames);
+    std::vector<std::uint8_t> cut(cells.count(), 0);  // faces, as bits
+    context.parallel_for(cells.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t cell = begin; cell < end; ++cell)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::uint32_t other = cells.neighbours[cell][k];
+                if (other == InsideCells::kOutside || other < cell) continue;
+                if (leaves_lumen(cells, around, test, cell, k)) cut[cell] |= static_cast<std::uint8_t>(1U << k);
+            }
+    });
     for (std::uint32_t cell = 0; cell < cells.count(); ++cell)
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t other = cells.neighbours[cell][k];
-            if (other == InsideCells::kOutside || other < cell || !leaves_lumen(cells, around, test, cell, k)) continue;
-            cells.neighbours[cell][k] = InsideCells::kOutside;
-            for (std::uint32_t& back : cells.neighbours[other])
+            if ((cut[cell] >> k & 1) == 0) continue;
+            for (std::uint32_t& back : cells.neighbours[cells.neighbours[cell][k]])
                 if (back == cell) back = InsideCells::kOutside;
+            cells.neighbours[cell][k] = InsideCells::kOutside;
             ++cells.cut_edges;
         }
+}
+
+/// Gathers the cells `order` of the tetrahedra. @returns which of them are flat
+std::vector<std::uint8_t> gather(const Tetrahedra& tetrahedra, const std::vector<Vec3>& centres,
+                                 const std::vector<std::uint32_t>& order, const std::vector<SiteFrame>& frames,
+                                 double coordinate_rounding, InsideCells& inside, const StageContext& context) {
+    std::vector<std::uint32_t> number(tetrahedra.count(), InsideCells::kOutside);
+    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<std::uint32_t>(i);
+    inside.centre.resize(order.size());
+    inside.radius.resize(order.size());
+    inside.sites.resize(order.size());
+    inside.neighbours.resize(order.size());
+    std::vector<std::uint8_t> flat(order.size(), 0);
+    const double height = kFlatRoundings * coordinate_rounding;
+    context.parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t cell = order[i];
+            inside.centre[i] = centres[cell];
+            inside.sites[i] = tetrahedra.sites[cell];
+            const auto corner = [&](std::size_t k) { return frames[inside.sites[i][k]].position; };
+            inside.radius[i] = distance(centres[cell], corner(0));
+            double longest2 = 0;
+            for (const std::uint32_t s : inside.sites[i]) longest2 = std::max(longest2, frames[s].longest_edge);
+            flat[i] =
+                is_flat(corner(0), corner(1), corner(2), corner(3), std::min(height, kFlatShare * std::sqrt(longest2)))
+                    ? 1
+                    : 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::uint32_t n = tetrahedra.neighbours[cell][k];
+                inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
+            }
+        }
+    });
+    return flat;
 }
 
 }  // namespace
@@ -233,35 +276,12 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
     });
 
     const std::vector<std::uint32_t> order = curve_order(centres, verdict, low, high);
-    std::vector<std::uint32_t> number(count, InsideCells::kOutside);
-    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     InsideCells inside;
     for (const std::size_t q : queried) inside.queried += q;
-    inside.centre.resize(order.size());
-    inside.radius.resize(order.size());
-    inside.sites.resize(order.size());
-    inside.neighbours.resize(order.size());
-    std::vector<bool> flat(order.size(), false);
-    const double height = kFlatRoundings * surface.coordinate_rounding;
-    bool any_flat = false;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::uint32_t cell = order[i];
-        inside.centre[i] = centres[cell];
-        inside.sites[i] = tetrahedra.sites[cell];
-        const auto corner = [&](std::size_t k) { return frames[inside.sites[i][k]].position; };
-        inside.radius[i] = distance(centres[cell], corner(0));
-        double longest2 = 0;
-        for (const std::uint32_t s : inside.sites[i]) longest2 = std::max(longest2, frames[s].longest_edge);
-        flat[i] = is_flat(corner(0), corner(1), corner(2), corner(3),
-                          std::min(height, kFlatShare * std::sqrt(longest2)));
-        any_flat = any_flat || flat[i];
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t n = tetrahedra.neighbours[cell][k];
-            inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
-        }
-    }
-    if (any_flat) settle_flat_cells(inside, flat);
-    cut_edges(inside, frames, test);
+    const std::vector<std::uint8_t> flat =
+        gather(tetrahedra, centres, order, frames, surface.coordinate_rounding, inside, context);
+    if (std::find(flat.begin(), flat.end(), 1) != flat.end()) settle_flat_cells(inside, flat);
+    cut_edges(inside, frames, test, context);
     return inside;
 }
 

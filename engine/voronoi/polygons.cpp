@@ -1,17 +1,26 @@
 // The polygon dual to a Delaunay edge (p, q) is found by turning around the edge from cell to cell.
 // A cell has six edges; a bit each says that its polygon was walked, a second bit that the polygon
 // was kept. A facet none of whose three edges has a kept polygon leaves a bare Voronoi edge.
+// Ranges of cells are walked apart: a polygon belongs to the range of the first of its cells, where it starts, so that
+// the ranges' polygons one after the other are those of one walk over all cells. A range that meets a cell before its
+// own leaves the polygon to the range of that cell; cells follow a curve through space, so that few polygons are met
+// twice.
 // Merged vertices collapse loops: repeated neighbours are skipped, and a loop that meets one vertex
 // twice, or has fewer than three, has no area and is dropped, which its bare edges make good.
 #include "engine/voronoi/polygons.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
+#include <optional>
 
 namespace lumenline {
 
 namespace {
+
+/// Cells of a range; what a range costs more than its polygons is below a hundredth.
+constexpr std::size_t kGrain = 32768;
 
 /// Edge of a tetrahedron: its corners, and the corners to turn from and to.
 struct TetEdge {
@@ -28,24 +37,43 @@ struct Step {
     std::uint8_t edge;
 };
 
-class PolygonBuilder {
+/// A bit of every edge of the cells that a range of polygons was made from; ranges set bits of each other's cells.
+class EdgeBits {
 public:
-    PolygonBuilder(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex)
-        : cells_(cells), merged_(merged), complex_(complex), walked_(cells.count(), 0), kept_(cells.count(), 0) {}
+    explicit EdgeBits(std::size_t cells) : bits_(cells, 0) {}
 
-    void run() {
-        complex_.polygon_offsets.assign(1, 0);
-        complex_.polygon_vertices.reserve(cells_.count() * 5);
-        complex_.polygon_sites.reserve(cells_.count() * 3 / 2);
-        complex_.polygon_offsets.reserve(cells_.count() * 3 / 2);
-        for (std::uint32_t cell = 0; cell < cells_.count(); ++cell)
+    void set(Step step) {
+        std::atomic_ref(bits_[step.cell])
+            .fetch_or(static_cast<std::uint8_t>(1U << step.edge), std::memory_order_relaxed);
+    }
+    [[nodiscard]] std::uint8_t of(std::uint32_t cell) const { return bits_[cell]; }
+
+private:
+    std::vector<std::uint8_t> bits_;
+};
+
+/// Polygons whose first cell is in one range.
+class PolygonRange {
+public:
+    PolygonRange(const InsideCells& cells, const MergedVertices& merged, std::uint32_t begin, std::uint32_t end,
+                 EdgeBits& kept)
+        : cells_(cells), merged_(merged), begin_(begin), end_(end), kept_(kept), walked_(end - begin, 0) {
+        vertices_.reserve((end - begin) * std::size_t{5});
+        for (std::uint32_t cell = begin; cell < end; ++cell)
             for (std::uint8_t e = 0; e < 6; ++e)
-                if ((walked_[cell] >> e & 1) == 0 && walk(cell, e)) keep(cell, e);
-        add_bare_edges();
+                if ((walked_[cell - begin] >> e & 1) == 0 && walk(cell, e)) keep(cell, e);
+    }
+
+    /// Adds them to those of the ranges before.
+    void append_to(VoronoiComplex& complex) const {
+        const auto first = static_cast<std::uint32_t>(complex.polygon_vertices.size());
+        complex.polygon_vertices.insert(complex.polygon_vertices.end(), vertices_.begin(), vertices_.end());
+        complex.polygon_sites.insert(complex.polygon_sites.end(), sites_.begin(), sites_.end());
+        for (const std::uint32_t end : ends_) complex.polygon_offsets.push_back(first + end);
     }
 
 private:
-    /// Turns around edge `e` of `start`; true when the loop closed inside.
+    /// Turns around edge `e` of `start`; true when the loop closed inside, and none of its cells is before the range.
     bool walk(std::uint32_t start, std::uint8_t e) {
         loop_.clear();
         const auto& corner = cells_.sites[start];
@@ -64,7 +92,8 @@ private:
                     ifrom = k;
             }
             const std::uint8_t edge = kEdgeNumber[ia][ib];
-            walked_[cell] |= static_cast<std::uint8_t>(1U << edge);
+            if (cell < begin_) return false;
+            if (cell < end_) walked_[cell - begin_] |= static_cast<std::uint8_t>(1U << edge);
             loop_.push_back({cell, edge});
             const std::uint32_t next = cells_.neighbours[cell][ifrom];
             if (next == InsideCells::kOutside) return false;
@@ -81,7 +110,7 @@ private:
     }
 
     void keep(std::uint32_t cell, std::uint8_t e) {
-        auto& out = complex_.polygon_vertices;
+        auto& out = vertices_;
         const std::size_t begin = out.size();
         for (const Step& step : loop_) {
             const VoronoiVertexId v(merged_.of_cell[step.cell]);
@@ -93,45 +122,50 @@ private:
             out.resize(begin);
             return;
         }
-        for (const Step& step : loop_) kept_[step.cell] |= static_cast<std::uint8_t>(1U << step.edge);
+        for (const Step& step : loop_) kept_.set(step);
         const auto& corner = cells_.sites[cell];
-        complex_.polygon_sites.push_back({SiteId(corner[kEdges[e].a]), SiteId(corner[kEdges[e].b])});
-        complex_.polygon_offsets.push_back(static_cast<std::uint32_t>(out.size()));
+        sites_.push_back({SiteId(corner[kEdges[e].a]), SiteId(corner[kEdges[e].b])});
+        ends_.push_back(static_cast<std::uint32_t>(out.size()));
     }
 
     [[nodiscard]] bool meets_a_vertex_twice(std::size_t begin) const {
-        const auto& out = complex_.polygon_vertices;
+        const auto& out = vertices_;
         for (std::size_t i = begin; i < out.size(); ++i)
             for (std::size_t j = i + 1; j < out.size(); ++j)
                 if (out[i] == out[j]) return true;
         return false;
     }
 
-    void add_bare_edges() {
-        std::vector<std::array<std::uint32_t, 2>> bare;
-        for (std::uint32_t cell = 0; cell < cells_.count(); ++cell)
-            for (std::size_t k = 0; k < 4; ++k) {
-                const std::uint32_t n = cells_.neighbours[cell][k];
-                if (n == InsideCells::kOutside || n < cell || (kept_[cell] & kFaceEdges[k]) != 0) continue;
-                const std::uint32_t v = merged_.of_cell[cell], w = merged_.of_cell[n];
-                if (v != w) bare.push_back({std::min(v, w), std::max(v, w)});
-            }
-        std::sort(bare.begin(), bare.end());
-        bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
-        for (const auto& edge : bare) {
-            complex_.polygon_vertices.insert(complex_.polygon_vertices.end(),
-                                             {VoronoiVertexId(edge[0]), VoronoiVertexId(edge[1])});
-            complex_.polygon_sites.push_back({SiteId(), SiteId()});
-            complex_.polygon_offsets.push_back(static_cast<std::uint32_t>(complex_.polygon_vertices.size()));
-        }
-    }
-
     const InsideCells& cells_;
     const MergedVertices& merged_;
-    VoronoiComplex& complex_;
-    std::vector<std::uint8_t> walked_, kept_;
+    std::uint32_t begin_, end_;
+    EdgeBits& kept_;
+    std::vector<std::uint8_t> walked_;  ///< of the range's cells
     std::vector<Step> loop_;
+    std::vector<VoronoiVertexId> vertices_;
+    std::vector<std::array<SiteId, 2>> sites_;
+    std::vector<std::uint32_t> ends_;  ///< of each polygon in vertices_
 };
+
+void add_bare_edges(const InsideCells& cells, const MergedVertices& merged, const EdgeBits& kept,
+                    VoronoiComplex& complex) {
+    std::vector<std::array<std::uint32_t, 2>> bare;
+    for (std::uint32_t cell = 0; cell < cells.count(); ++cell)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t n = cells.neighbours[cell][k];
+            if (n == InsideCells::kOutside || n < cell || (kept.of(cell) & kFaceEdges[k]) != 0) continue;
+            const std::uint32_t v = merged.of_cell[cell], w = merged.of_cell[n];
+            if (v != w) bare.push_back({std::min(v, w), std::max(v, w)});
+        }
+    std::sort(bare.begin(), bare.end());
+    bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
+    for (const auto& edge : bare) {
+        complex.polygon_vertices.insert(complex.polygon_vertices.end(),
+                                        {VoronoiVertexId(edge[0]), VoronoiVertexId(edge[1])});
+        complex.polygon_sites.push_back({SiteId(), SiteId()});
+        complex.polygon_offsets.push_back(static_cast<std::uint32_t>(complex.polygon_vertices.size()));
+    }
+}
 
 }  // namespace
 
@@ -174,7 +208,8 @@ MergedVertices merge_vertices(const InsideCells& cells, double relative, double 
     return merged;
 }
 
-void build_polygons(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex) {
+void build_polygons(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex,
+                    const StageContext& context) {
     complex.vertices.resize(merged.count);
     complex.ball_radius.resize(merged.count);
     complex.vertex_site.resize(merged.count);
@@ -185,7 +220,21 @@ void build_polygons(const InsideCells& cells, const MergedVertices& merged, Voro
         complex.ball_radius[v] = cells.radius[cell];
         complex.vertex_site[v] = SiteId(cells.sites[cell][0]);
     }
-    PolygonBuilder(cells, merged, complex).run();
+    EdgeBits kept(cells.count());
+    std::vector<std::optional<PolygonRange>> ranges((cells.count() + kGrain - 1) / kGrain);
+    context.parallel_for(cells.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+        ranges[begin / kGrain].emplace(cells, merged, static_cast<std::uint32_t>(begin),
+                                       static_cast<std::uint32_t>(end), kept);
+    });
+    complex.polygon_offsets.assign(1, 0);
+    complex.polygon_vertices.reserve(cells.count() * 5);
+    complex.polygon_sites.reserve(cells.count() * 3 / 2);
+    complex.polygon_offsets.reserve(cells.count() * 3 / 2);
+    for (auto& range : ranges) {
+        range->append_to(complex);
+        range.reset();
+    }
+    add_bare_edges(cells, merged, kept, complex);
 }
 
 }  // namespace lumenline

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/core/stage_context.h"
 #include "engine/core/surface.h"
 #include "engine/core/voronoi_complex.h"
 #include "engine/voronoi/inside_cells.h"
@@ -29,7 +30,8 @@ std::size_t bridge_gaps(const Surface& surface, const InsideCells& cells, const 
 
 /// Fills vertices, radii, polygons and bare edges of the complex.
 /// @cost O(cells)
-void build_polygons(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex);
+void build_polygons(const InsideCells& cells, const MergedVertices& merged, VoronoiComplex& complex,
+                    const StageContext& context);
 
 /// Fills the incidence of vertices and polygons, when all polygons are there.
 void build_incidence(VoronoiComplex& complex);

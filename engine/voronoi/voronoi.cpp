@@ -45,7 +45,7 @@ VoronoiComplex build_voronoi(const Surface& surface, const VoronoiOptions& optio
         merge_vertices(cells, options.merge_tolerance, kRoundingFactor * surface.coordinate_rounding);
 
     VoronoiComplex complex;
-    build_polygons(cells, merged, complex);
+    build_polygons(cells, merged, complex, context);
     const std::size_t bridges = bridge_gaps(surface, cells, merged, complex);
     build_incidence(complex);
     complex.pole = find_poles(cells, merged, surface.site_count());
