@@ -11,7 +11,7 @@
 namespace lumenline {
 
 /// Every vertex of this number is looked at for the residual that a field carries.
-inline constexpr std::size_t kResidualStride = 16;
+inline constexpr std::size_t kResidualStride = 32;
 
 /// Scratch of solve_eikonal; reusable from call to call, one per concurrent solve.
 using EikonalWorkspace = MarchWorkspace;
