@@ -79,8 +79,8 @@ PipelineOptions read_options(const MapReader& top) {
                           std::array{Refinement::kNone, Refinement::kPath, Refinement::kMedial}, refinement_name);
     t.pairs = enumerated(centerlines.choice("pairs"), t.pairs, std::array{Pairs::kNearest, Pairs::kAll}, pairs_name);
     t.join = enumerated(centerlines.choice("join"), t.join, std::array{Join::kAxis, Join::kCentre}, join_name);
-    t.topology = enumerated(centerlines.choice("topology"), t.topology,
-                            std::array{Topology::kTree, Topology::kNetwork}, topology_name);
+    t.topology = enumerated(centerlines.choice("topology"), t.topology, std::array{Topology::kTree, Topology::kNetwork},
+                            topology_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
     const MapReader branches = top.section("branches");
     BranchOptions& b = options.branches;
@@ -149,7 +149,10 @@ CohortConfig parse_cohort(const std::string& text, const std::filesystem::path& 
 
     const MapReader archive = top.section("archive");
     config.archive.directory = folder / archive.text("directory").value_or("results");
-    config.archive.float32_fields = archive.choice("precision").value_or("float32") == "float32";
+    config.archive.options.float32_fields = archive.choice("precision").value_or("float32") == "float32";
+    config.archive.options.fields =
+        enumerated(archive.choice("fields"), ArchiveFields::kAll,
+                   std::array{ArchiveFields::kAll, ArchiveFields::kSurface, ArchiveFields::kLines}, fields_name);
 
     ModelTask prototype;
     prototype.identity.length_unit = top.text("length_unit").value_or(prototype.identity.length_unit);

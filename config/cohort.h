@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/archive_options.h"
 #include "engine/core/options.h"
 
 namespace lumenline {
@@ -48,7 +49,7 @@ struct RunOptions {
 /// Where results go and in which form.
 struct ArchiveSettings {
     std::filesystem::path directory;  ///< absolute, or relative to the working directory
-    bool float32_fields = true;       ///< scalar fields as float32; coordinates and radii are always float64
+    ArchiveOptions options;
 };
 
 /// A cohort as its YAML file states it, every default filled in.

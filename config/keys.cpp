@@ -73,6 +73,7 @@ constexpr std::array kKeys{
     KeyInfo{"run.isolation", "choice", "none|process", "-", "none"},
     KeyInfo{"archive", "map", "", "-", "{}"},
     KeyInfo{"archive.directory", "path", "", "-", "results"},
+    KeyInfo{"archive.fields", "choice", "all|surface|lines", "-", "all"},
     KeyInfo{"archive.precision", "choice", "float32|float64", "-", "float32"},
 };
 

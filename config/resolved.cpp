@@ -147,7 +147,8 @@ std::string resolved_text(const CohortConfig& config) {
     out << YAML::EndMap;
     write_section(out, "archive");
     write_quoted(out, "directory", directory_text(config));
-    write(out, "precision", config.archive.float32_fields ? "float32" : "float64");
+    write(out, "fields", fields_name(config.archive.options.fields));
+    write(out, "precision", config.archive.options.float32_fields ? "float32" : "float64");
     out << YAML::EndMap << YAML::EndMap;
     return std::string(out.c_str()) + "\n";
 }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace lumenline {
 
@@ -36,9 +35,10 @@ void Descent::store(VoronoiVertexId v, const DescentEnd& end) {
     if (state.compare_exchange_strong(expected, State::kBeingStored, std::memory_order_acq_rel)) {
         ends_[at(v)] = end;
         state.store(State::kKnown, std::memory_order_release);
+        state.notify_all();
         return;
     }
-    while (!known(v)) std::this_thread::yield();  // another thread has the same end in hand, and copies it
+    state.wait(State::kBeingStored, std::memory_order_acquire);  // another thread copies the same end
 }
 
 void Descent::try_polygon(PolygonId p, const Here& here, Step& best) const {

@@ -21,12 +21,12 @@ std::vector<const ModelTask*> Estimates::longest_first(std::span<const ModelTask
     return sorted;
 }
 
-Estimates::Total Estimates::total(std::span<const ModelTask* const> tasks, bool float32_fields) const {
+Estimates::Total Estimates::total(std::span<const ModelTask* const> tasks, const ArchiveOptions& archive) const {
     Total sum;
     for (const ModelTask* task : tasks) {
         const double n = sites(*task);
         sum.seconds += estimated_seconds(n);
-        sum.file_bytes += estimated_file_bytes(n, float32_fields);
+        sum.file_bytes += estimated_file_bytes(n, archive);
         sum.largest_bytes = std::max(sum.largest_bytes, estimated_memory(n));
     }
     return sum;
@@ -37,10 +37,20 @@ double memory_budget(const RunOptions& run) {
 }
 
 std::string estimate_text(const CohortConfig& config, std::span<const ModelTask* const> tasks, int threads) {
-    const Estimates::Total total = Estimates(tasks).total(tasks, config.archive.float32_fields);
-    return fmt::format("about {} on {}, {} on disk; the largest model needs {} of {} of memory",
+    const Estimates estimates(tasks);
+    const Estimates::Total total = estimates.total(tasks, config.archive.options);
+    const auto with = [&](ArchiveFields fields) {
+        ArchiveOptions options = config.archive.options;
+        options.fields = fields;
+        return size_text(estimates.total(tasks, options).file_bytes);
+    };
+    std::string less;
+    if (config.archive.options.fields == ArchiveFields::kAll)
+        less = fmt::format(" ({} with archive.fields: surface, {} with lines)", with(ArchiveFields::kSurface),
+                           with(ArchiveFields::kLines));
+    return fmt::format("about {} on {}, {} on disk{}; the largest model needs {} of {} of memory",
                        duration_text(total.seconds / threads), counted(static_cast<std::size_t>(threads), "thread"),
-                       size_text(total.file_bytes), size_text(total.largest_bytes),
+                       size_text(total.file_bytes), less, size_text(total.largest_bytes),
                        size_text(memory_budget(config.run)));
 }
 

@@ -27,7 +27,7 @@ public:
         double file_bytes = 0;     ///< in the archive
         double largest_bytes = 0;  ///< memory of the model that needs most
     };
-    [[nodiscard]] Total total(std::span<const ModelTask* const> tasks, bool float32_fields) const;
+    [[nodiscard]] Total total(std::span<const ModelTask* const> tasks, const ArchiveOptions& archive) const;
 
 private:
     std::map<std::string, double> sites_;
@@ -36,7 +36,8 @@ private:
 /// Bytes that the models in flight may take together.
 double memory_budget(const RunOptions& run);
 
-/// What computing `tasks` may take on so many threads: time, disk, memory. A sentence without a full stop.
+/// What computing `tasks` may take on so many threads: time, disk and what archive.fields would save of it, memory. A
+/// sentence without a full stop.
 std::string estimate_text(const CohortConfig& config, std::span<const ModelTask* const> tasks, int threads);
 
 std::string duration_text(double seconds);  ///< "2:05" minutes, "1:02:05" hours

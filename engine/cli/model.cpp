@@ -27,7 +27,7 @@ struct ModelArguments {
     std::string output;
     std::vector<std::string> inlets, outlets;
     std::vector<EndpointMode> modes;
-    std::string precision = "float32";
+    std::string precision = "float32", fields = "all";
     int threads = 0;
     bool skip_self_intersections = false;
     bool skip_characterization = false;
@@ -83,7 +83,10 @@ int run(ModelArguments arguments) {
     std::error_code ignored;
     if (std::filesystem::equivalent(task.surface_path, arguments.output, ignored))
         throw CLI::ValidationError("--output", "this is the surface itself, which would be overwritten");
-    const bool float32 = arguments.precision == "float32";
+    ArchiveOptions archive;
+    archive.float32_fields = arguments.precision == "float32";
+    for (const ArchiveFields fields : {ArchiveFields::kSurface, ArchiveFields::kLines})
+        if (arguments.fields == fields_name(fields)) archive.fields = fields;
 
     const StopOnSignal stop;
     ScheduleOptions schedule;
@@ -91,8 +94,8 @@ int run(ModelArguments arguments) {
     schedule.cancelled = StopOnSignal::flag();
     int status = kDone;
     const RunReport report = run_models({&task, 1}, schedule, load_task, [&](ModelRecord&& record) {
-        record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, float32);
-        write_model_file(arguments.output, record, {float32});
+        record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, archive);
+        write_model_file(arguments.output, record, archive);
         if (record.failure) {
             fmt::print(stderr, "{}: failed in {}: {}\n", task.surface_path, stage_name(record.failure->stage),
                        record.failure->sentence);
@@ -191,6 +194,10 @@ void add_model(CLI::App& app, std::function<int()>& action) {
         ->capture_default_str();
     verb->add_option("--precision", arguments->precision, "Of scalar fields in the file: float32 or float64")
         ->check(CLI::IsMember({"float32", "float64"}))
+        ->capture_default_str();
+    verb->add_option("--fields", arguments->fields,
+                     "What goes into the file: all, surface (no Voronoi diagram), lines (nor the surface)")
+        ->check(CLI::IsMember({"all", "surface", "lines"}))
         ->capture_default_str();
     verb->add_option("--threads", arguments->threads, "Threads to use; all if not given")->check(CLI::PositiveNumber);
     add_stage_options(*verb, *arguments);

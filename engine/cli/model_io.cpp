@@ -29,12 +29,12 @@ TriangleSoup load_task(const ModelTask& task) {
     return soup;
 }
 
-std::string inputs_digest(const ModelTask& task, const std::string& source_sha256, bool float32_fields) {
-    return sha256_hex("format=" + std::to_string(names::kFormatVersion) +
-                      "\nprecision=" + (float32_fields ? "float32" : "float64") +
-                      "\nlength_unit=" + task.identity.length_unit +
-                      "\ncoordinate_system=" + task.identity.coordinate_system + "\nsource=" + source_sha256 + "\n" +
-                      canonical_text(task));
+std::string inputs_digest(const ModelTask& task, const std::string& source_sha256, const ArchiveOptions& archive) {
+    return sha256_hex(
+        "format=" + std::to_string(names::kFormatVersion) + "\nfields=" + std::string(fields_name(archive.fields)) +
+        "\nprecision=" + (archive.float32_fields ? "float32" : "float64") +
+        "\nlength_unit=" + task.identity.length_unit + "\ncoordinate_system=" + task.identity.coordinate_system +
+        "\nsource=" + source_sha256 + "\n" + canonical_text(task));
 }
 
 StopOnSignal::StopOnSignal() {

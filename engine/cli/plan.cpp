@@ -35,7 +35,7 @@ void look_at_file(const ArchiveSettings& archive, PlannedModel& model) {
 
 void compare(const ArchiveSettings& archive, bool retry_failed, PlannedModel& model) {
     const ModelState& state = *model.state;
-    if (inputs_digest(*model.task, model.source_sha256, archive.float32_fields) != state.inputs_sha256) {
+    if (inputs_digest(*model.task, model.source_sha256, archive.options) != state.inputs_sha256) {
         model.reason = model.source_sha256 != state.source_sha256 ? "its surface has changed"
                                                                   : "options, format or program have changed";
         return;

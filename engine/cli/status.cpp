@@ -58,7 +58,7 @@ ModelState state_of(const ModelSummary& row) {
 std::string pending_reason(const CohortConfig& config, const ModelTask& task, const std::optional<ModelState>& state) {
     if (!state) return "no file yet";
     if (state->id != task.identity.id) return "its file is that of another model";
-    if (inputs_digest(task, state->source_sha256, config.archive.float32_fields) != state->inputs_sha256)
+    if (inputs_digest(task, state->source_sha256, config.archive.options) != state->inputs_sha256)
         return "options, format or program have changed";
     if (state->failure && is_transient(*state->failure))
         return fmt::format("failed in {} ({}), to be tried again", stage_name(state->failure->stage),
@@ -70,8 +70,8 @@ std::string pending_reason(const CohortConfig& config, const ModelTask& task, co
 double seconds_left(const std::vector<const ModelTask*>& left, const std::vector<const ModelTask*>& done,
                     double seconds_of_done) {
     if (left.empty()) return 0;
-    const double estimated_left = Estimates(left).total(left, true).seconds;
-    const double estimated_done = Estimates(done).total(done, true).seconds;
+    const double estimated_left = Estimates(left).total(left, {}).seconds;
+    const double estimated_done = Estimates(done).total(done, {}).seconds;
     return estimated_done > 0 ? estimated_left * seconds_of_done / estimated_done : estimated_left;
 }
 

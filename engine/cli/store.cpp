@@ -8,7 +8,7 @@
 namespace lumenline {
 
 StoredModel store_model(ModelRecord record, const ModelTask& task, const ArchiveSettings& archive) {
-    record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, archive.float32_fields);
+    record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, archive.options);
     StoredModel stored{summarize(record)};
     const auto fail = [&](Failure failure) {
         stored.written = false;
@@ -16,7 +16,7 @@ StoredModel store_model(ModelRecord record, const ModelTask& task, const Archive
         stored.summary.failure = std::move(failure);
     };
     try {
-        write_model_file(model_path(archive.directory, record.identity.id), record, {archive.float32_fields});
+        write_model_file(model_path(archive.directory, record.identity.id), record, archive.options);
     } catch (const StageError& error) {
         fail({error.stage(), error.code(), error.what()});
     } catch (const std::exception& error) {

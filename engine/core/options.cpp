@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/core/archive_options.h"
 #include "engine/core/text.h"
 
 namespace lumenline {
@@ -107,6 +108,10 @@ std::string canonical_text(const ModelTask& task) {
     line("branches.patches_along", std::to_string(o.branches.patches_along));
     line("branches.patches_around", std::to_string(o.branches.patches_around));
     return text;
+}
+
+std::string_view fields_name(ArchiveFields fields) {
+    return fields == ArchiveFields::kAll ? "all" : fields == ArchiveFields::kSurface ? "surface" : "lines";
 }
 
 }  // namespace lumenline

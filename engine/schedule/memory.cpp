@@ -101,9 +101,13 @@ double estimated_seconds(double sites) {
     return kFixed + kPerSite * sites;
 }
 
-double estimated_file_bytes(double sites, bool float32_fields) {
-    constexpr double kFixed = 60e3, kPerSite = 930, kMoreInDouble = 60;
-    return kFixed + (kPerSite + (float32_fields ? 0 : kMoreInDouble)) * sites;
+double estimated_file_bytes(double sites, const ArchiveOptions& archive) {
+    constexpr double kFixed = 60e3, kLines = 70, kSurface = 270, kVoronoi = 210;
+    constexpr double kMoreSurface = 35, kMoreVoronoi = 30;  // in double precision
+    double per_site = kLines;
+    if (archive.fields != ArchiveFields::kLines) per_site += kSurface + (archive.float32_fields ? 0 : kMoreSurface);
+    if (archive.fields == ArchiveFields::kAll) per_site += kVoronoi + (archive.float32_fields ? 0 : kMoreVoronoi);
+    return kFixed + per_site * sites;
 }
 
 }  // namespace lumenline

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/core/archive_options.h"
+
 namespace lumenline {
 
 /// Memory that this process may use: that of the machine, or the limit of its control group (a container), of its batch
@@ -22,6 +24,6 @@ bool limit_memory(double bytes);
 
 /// Work on a model of so many sites [s, one thread], and the size of its file [bytes]. Orders of magnitude.
 double estimated_seconds(double sites);
-double estimated_file_bytes(double sites, bool float32_fields);
+double estimated_file_bytes(double sites, const ArchiveOptions& archive);
 
 }  // namespace lumenline

@@ -44,7 +44,7 @@ std::vector<T> number_column(const std::vector<Row>& rows, Read read) {
     return column;
 }
 
-void write_identity(Writer& writer, const ModelRecord& record) {
+void write_identity(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
     const ModelIdentity& who = record.identity;
     writer.attribute("/", "format", names::kModelFormat);
     writer.attribute("/", "format_version", names::kFormatVersion);
@@ -61,6 +61,16 @@ void write_identity(Writer& writer, const ModelRecord& record) {
     writer.attribute("/", "source_file", who.source_file);
     writer.attribute("/", "source_sha256", who.source_sha256);
     writer.attribute("/", "inputs_sha256", who.inputs_sha256);
+    writer.attribute("/", "fields", fields_name(options.fields));
+    const auto count = [&](const char* name, std::size_t n) { writer.attribute("/", name, static_cast<int>(n)); };
+    if (record.surface) {
+        count(names::kStatedSites, record.surface->site_count());
+        count(names::kStatedTriangles, record.surface->triangles.size());
+    }
+    if (record.complex) {
+        count(names::kStatedVertices, record.complex->vertex_count());
+        count(names::kStatedPolygons, record.complex->polygon_count());
+    }
     if (record.failure) {
         writer.attribute("/", "failure_stage", stage_name(record.failure->stage));
         writer.attribute("/", "failure_code", error_name(record.failure->code));
@@ -86,7 +96,7 @@ std::vector<std::int32_t> cap_endpoints(const Surface& surface, const Endpoints*
         surface.cap, [&](OpeningId opening) { return opening.is_none() ? kWallTriangle : slot(opening); });
 }
 
-void write_surface(Writer& writer, const ModelRecord& record) {
+void write_surface(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
     const Surface& surface = *record.surface;
     const std::size_t sites = surface.site_count();
     writer.group(names::kSurface);
@@ -95,6 +105,7 @@ void write_surface(Writer& writer, const ModelRecord& record) {
     writer.attribute(names::kSurface, "diagonal", surface.diagonal);
     writer.attribute(names::kSurface, "median_edge", surface.median_edge);
     writer.attribute(names::kSurface, "coordinate_rounding", surface.coordinate_rounding);
+    if (options.fields == ArchiveFields::kLines) return;
     writer.column(names::kSurfacePoints, surface.points);
     writer.column(names::kTriangles, surface.triangles);
     writer.column(names::kNormals, surface.normals, sites);
@@ -102,10 +113,13 @@ void write_surface(Writer& writer, const ModelRecord& record) {
     const auto origin = [](SiteOrigin o) { return static_cast<std::uint8_t>(o); };
     writer.column(names::kOrigin, number_column<std::uint8_t>(surface.origin, origin), sites);
     writer.column(names::kCap, cap_endpoints(surface, record.endpoints.get()), surface.triangles.size());
-    if (record.complex) writer.column(names::kPole, record.complex->pole, sites);
+    if (record.complex && options.fields == ArchiveFields::kAll)
+        writer.column(names::kPole, record.complex->pole, sites);
 }
 
+/// The values of the sites and the Voronoi vertices.
 void write_character(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
+    if (options.fields == ArchiveFields::kLines) return;
     const SurfaceCharacter& c = *record.character;
     const std::size_t sites = record.surface->site_count();
     const std::pair<const names::Field*, const std::vector<double>*> scalars[] = {
@@ -121,8 +135,12 @@ void write_character(Writer& writer, const ModelRecord& record, const ArchiveOpt
     writer.column(names::kCenterlineId, c.centerline_id, sites);
     const auto zone = [](SiteZone z) { return static_cast<std::uint8_t>(z); };
     writer.column(names::kZone, number_column<std::uint8_t>(c.zone, zone), sites);
-    hdf::write_scalars(writer, names::kCenterlineDistance, c.centerline_distance, record.complex->vertex_count(), options);
+    if (options.fields == ArchiveFields::kAll)
+        hdf::write_scalars(writer, names::kCenterlineDistance, c.centerline_distance, record.complex->vertex_count(),
+                           options);
+}
 
+void write_statistics(Writer& writer, const SurfaceCharacter& c) {
     const std::pair<const names::Field*, const AreaStatistics*> statistics[] = {
         {&names::kStatisticsGeodesic, &c.geodesic_distance_statistics},
         {&names::kStatisticsEuclidean, &c.euclidean_distance_statistics},
@@ -256,21 +274,26 @@ void write_facts(Writer& writer, const RunFacts& facts, const std::string& optio
 }
 
 void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& options) {
-    write_identity(writer, record);
-    if (record.surface) write_surface(writer, record);
+    write_identity(writer, record, options);
+    if (record.surface) write_surface(writer, record, options);
     if (record.endpoints) write_endpoints(writer, *record.endpoints);
-    if (record.complex) write_complex(writer, *record.complex);
-    write_fields(writer, record, options);
+    if (options.fields == ArchiveFields::kAll) {
+        if (record.complex) write_complex(writer, *record.complex);
+        write_fields(writer, record, options);
+    }
     if (record.centerlines) {
         write_centerlines(writer, *record.centerlines);
         write_loops(writer, record.centerlines->loops);
     }
-    if (record.character) write_character(writer, record, options);
+    if (record.character) {
+        write_character(writer, record, options);
+        write_statistics(writer, *record.character);
+    }
     if (record.branches && record.surface && record.centerlines)
         hdf::write_branches(writer, *record.branches, record.surface->site_count(), record.centerlines->points.size(),
                             options);
     write_diagnostics(writer, record.diagnostics);
-    write_vtkhdf(writer, record);
+    write_vtkhdf(writer, record, options.fields != ArchiveFields::kLines);
     write_facts(writer, record.facts, record.options);
 }
 

@@ -3,18 +3,12 @@
 #include <filesystem>
 #include <string_view>
 
+#include "engine/core/archive_options.h"
 #include "engine/core/model_record.h"
 
 namespace lumenline {
 
-/// How a model file is written.
-struct ArchiveOptions {
-    /// Scalar fields on the complex (arrival times) in single precision. Coordinates, radii and
-    /// abscissae are always double.
-    bool float32_fields = true;
-};
-
-/// Writes everything `record` knows to `file`, in the format of io/ARCHIVE.md.
+/// Writes what `options` ask for of all that `record` knows to `file`, in the format of io/ARCHIVE.md.
 ///
 /// The file is gathered as "<file>.tmp", synced and renamed, so that `file` is never seen
 /// incomplete; an older `file` is replaced. Parts of the record that are null are left out. A

@@ -115,6 +115,10 @@ inline constexpr Field kTimingSeconds{"/timing/seconds", "s", "time each stage t
 inline constexpr Field kTotalSeconds{"/timing/total_seconds", "s", "time of work on the model, without waiting"};
 inline constexpr Field kPeakBytes{"/timing/peak_resident_bytes", "B", "of the process, when the model was finished"};
 
+// Counts that the root of a model file states, whether or not its file holds the arrays.
+inline constexpr const char *kStatedSites = "site_count", *kStatedTriangles = "triangle_count",
+                            *kStatedVertices = "voronoi_vertex_count", *kStatedPolygons = "polygon_count";
+
 inline constexpr const char* kVtk = "/VTKHDF";
 inline constexpr Field kVtkPointCount{"/VTKHDF/NumberOfPoints", "1", "sites and centerline points"};
 inline constexpr Field kVtkCellCount{"/VTKHDF/NumberOfCells", "1", "triangles and centerlines"};

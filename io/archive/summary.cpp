@@ -74,6 +74,17 @@ std::size_t length_of(const ArchiveFile& file, const names::Field& field) {
     return shape.empty() ? 0 : shape.front();
 }
 
+/// A count that the root states; where it does not, the array's length.
+std::size_t count_of(const ArchiveFile& file, const char* name, const names::Field& field) {
+    const std::optional<std::string> text = file.attribute("/", name);
+    if (!text) return length_of(file, field);
+    std::size_t count = 0;
+    const auto result = std::from_chars(text->data(), text->data() + text->size(), count);
+    if (result.ec != std::errc() || result.ptr != text->data() + text->size())
+        damaged(file, std::string("/@") + name + " is no count");
+    return count;
+}
+
 std::shared_ptr<const Centerlines> read_lines(const ArchiveFile& file) {
     auto lines = std::make_shared<Centerlines>();
     lines->radius = file.numbers(names::kRadius.path);
@@ -309,17 +320,17 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     record.status = status_of(file, text_attribute(file, "status"));
     if (record.status == ModelStatus::kFailed) record.failure = read_failure(file);
     record.diagnostics = read_severities(file);
-    if (file.has(names::kSurfacePoints.path)) record.surface = read_surface_sizes(file);
+    if (file.has(names::kSurface)) record.surface = read_surface_sizes(file);
     if (file.has(names::kEndpointRole.path)) record.endpoints = read_endpoints(file);
     if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
     if (file.has(names::kStatisticsGeodesic.path)) record.character = read_character(file);
     record.facts.total_seconds = only_number(file, names::kTotalSeconds);
 
     ModelSummary summary = summarize(record);
-    summary.sites = length_of(file, names::kSurfacePoints);
-    summary.triangles = length_of(file, names::kTriangles);
-    summary.voronoi_vertices = length_of(file, names::kVertices);
-    summary.polygons = length_of(file, names::kPolygonSites);
+    summary.sites = count_of(file, names::kStatedSites, names::kSurfacePoints);
+    summary.triangles = count_of(file, names::kStatedTriangles, names::kTriangles);
+    summary.voronoi_vertices = count_of(file, names::kStatedVertices, names::kVertices);
+    summary.polygons = count_of(file, names::kStatedPolygons, names::kPolygonSites);
     if (record.endpoints) summary.tables = read_tables(file, *record.endpoints);
     return summary;
 }

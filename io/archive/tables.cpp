@@ -83,7 +83,7 @@ void write_branches(Writer& writer, const Branches& branches, std::size_t sites,
     write_graph(writer, branches.graph);
     write_axes(writer, branches.lines, branches.graph.branch_count());
     write_points(writer, branches.points, points);
-    if (const SurfaceBranches& s = branches.surface; !s.branch.empty()) {
+    if (const SurfaceBranches& s = branches.surface; !s.branch.empty() && options.fields != ArchiveFields::kLines) {
         writer.column(names::kSiteBranch, s.branch, sites);
         writer.column(names::kSiteJunction, s.junction, sites);
         write_scalars(writer, names::kSiteLongitudinal, s.longitudinal, sites, options);

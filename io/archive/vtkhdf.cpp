@@ -58,11 +58,11 @@ void write_points(hdf::Writer& writer, const std::vector<Vec3>& sites, const Cen
 
 }  // namespace
 
-void write_vtkhdf(hdf::Writer& writer, const ModelRecord& record) {
-    if (!record.surface && !record.centerlines) return;
+void write_vtkhdf(hdf::Writer& writer, const ModelRecord& record, bool with_surface) {
+    if (!(record.surface && with_surface) && !record.centerlines) return;
     const Surface no_surface;
     const Centerlines no_lines;
-    const Surface& surface = record.surface ? *record.surface : no_surface;
+    const Surface& surface = record.surface && with_surface ? *record.surface : no_surface;
     const Centerlines& lines = record.centerlines ? *record.centerlines : no_lines;
 
     Cells cells;

@@ -5,9 +5,9 @@
 
 namespace lumenline {
 
-/// Writes `/VTKHDF`: the surface's triangles and the centerlines as one unstructured grid that
-/// ParaView 5.11 and VTK 9.1 open. Writes nothing if the record has neither.
+/// Writes `/VTKHDF`: the surface's triangles, if it is to have them, and the centerlines as one unstructured grid that
+/// ParaView 5.11 and VTK 9.1 open. Writes nothing where there is neither.
 /// @throws hdf::Error
-void write_vtkhdf(hdf::Writer& writer, const ModelRecord& record);
+void write_vtkhdf(hdf::Writer& writer, const ModelRecord& record, bool with_surface);
 
 }  // namespace lumenline

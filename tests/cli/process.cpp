@@ -46,6 +46,8 @@ Process::Process(const std::vector<std::string>& argv, const fs::path& folder) {
     std::vector<char*> pointers;
     for (std::string& copy : copies) pointers.push_back(copy.data());
     pointers.push_back(nullptr);
+    // A child that is killed at once has opened nothing yet; what it said is empty all the same.
+    for (const fs::path& file : {out_, err_}) std::ofstream(file, std::ios::trunc);
     child_ = fork();
     if (child_ < 0) throw std::system_error(errno, std::generic_category(), "cannot fork");
     if (child_ == 0) become(pointers.data(), folder.c_str(), out_.c_str(), err_.c_str());

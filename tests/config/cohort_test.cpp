@@ -34,7 +34,7 @@ void expect_same(const CohortConfig& a, const CohortConfig& b) {
     EXPECT_EQ(a.run.model_memory, b.run.model_memory);
     EXPECT_EQ(a.run.isolation, b.run.isolation);
     EXPECT_EQ(a.archive.directory, b.archive.directory);
-    EXPECT_EQ(a.archive.float32_fields, b.archive.float32_fields);
+    EXPECT_EQ(a.archive.options.float32_fields, b.archive.options.float32_fields);
     ASSERT_EQ(a.tasks.size(), b.tasks.size());
     for (std::size_t i = 0; i < a.tasks.size(); ++i) EXPECT_EQ(task_text(a.tasks[i]), task_text(b.tasks[i]));
 }
@@ -49,7 +49,7 @@ TEST(Cohort, MinimalFileHasTheDefaultsOfTheStructs) {
     EXPECT_EQ(config.run.threads, 0);
     EXPECT_EQ(config.run.models_in_flight, 0);
     EXPECT_EQ(config.archive.directory, folder.path() / "results");
-    EXPECT_TRUE(config.archive.float32_fields);
+    EXPECT_TRUE(config.archive.options.float32_fields);
 
     ModelTask expected;
     expected.identity.id = "a";
@@ -104,7 +104,7 @@ archive: {directory: ../out, precision: float64})"));
     EXPECT_EQ(config.run.model_memory, 250e6);
     EXPECT_EQ(config.run.isolation, Isolation::kProcess);
     EXPECT_EQ(config.archive.directory, folder.path() / "../out");
-    EXPECT_FALSE(config.archive.float32_fields);
+    EXPECT_FALSE(config.archive.options.float32_fields);
 }
 
 TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
@@ -123,7 +123,11 @@ TEST(Cohort, EveryChoiceOfAKeyIsUnderstood) {
     EXPECT_EQ(folder.load(with("centerlines: {refine: path}")).tasks.at(0).options.trace.refine, Refinement::kPath);
     EXPECT_EQ(folder.load(with("centerlines: {pairs: nearest}")).tasks.at(0).options.trace.pairs, Pairs::kNearest);
     EXPECT_EQ(folder.load(with("centerlines: {topology: tree}")).tasks.at(0).options.trace.topology, Topology::kTree);
-    EXPECT_TRUE(folder.load(with("archive: {precision: float32}")).archive.float32_fields);
+    for (const ArchiveFields fields : {ArchiveFields::kAll, ArchiveFields::kSurface, ArchiveFields::kLines})
+        EXPECT_EQ(folder.load(with(std::string("archive: {fields: ").append(fields_name(fields)) + "}"))
+                      .archive.options.fields,
+                  fields);
+    EXPECT_TRUE(folder.load(with("archive: {precision: float32}")).archive.options.float32_fields);
     EXPECT_EQ(folder.load(with("run: {threads: all, models_in_flight: auto}")).run.threads, 0);
     EXPECT_EQ(folder.load(with("run: {memory: 7%}")).run.memory_percent, 7);
     EXPECT_EQ(folder.load(with("run: {memory: 2TB}")).run.memory_bytes, 2e12);

@@ -62,7 +62,7 @@ TEST(ConfigErrors, UnknownKeysGetTheNearestOne) {
         {model_with("inlet: [[0,0,0]]"), 5, "did you mean 'inlets'?"},
         {with("threads: 3"), 2, "it belongs below 'run'"},
         {with("subject: x"), 2, "it belongs below 'models.list[]'"},
-        {with("archive: {zzzz: 1}"), 2, "valid keys are directory or precision"},
+        {with("archive: {zzzz: 1}"), 2, "valid keys are directory, fields or precision"},
         {with("endpoints: {mode:auto}"), 2, "write a blank after the ':'"},
         {"cohort: c\nmodels: {tables: x.tsv}\n", 2, "did you mean 'table'?"},
     });
