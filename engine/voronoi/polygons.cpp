@@ -231,6 +231,7 @@ void build_polygons(const InsideCells& cells, const MergedVertices& merged, Voro
     complex.polygon_sites.reserve(cells.count() * 3 / 2);
     complex.polygon_offsets.reserve(cells.count() * 3 / 2);
     for (auto& range : ranges) {
+        if (!range) continue;  // ranges may have been run as one
         range->append_to(complex);
         range.reset();
     }
