@@ -45,7 +45,7 @@ Branches find_branches(const Surface& surface, const Centerlines& centerlines, c
     result.lines = make_axes(draft, views, options);
     result.points = branches_of_points(draft.pieces, result.lines, views);
     result.table = measure_axes(draft, result.lines);
-    result.bifurcations = measure_junctions(draft, result.lines);
+    measure_junctions(draft, result.lines, result.bifurcations, result.children);
     result.graph = std::move(draft.graph);
     result.pieces = std::move(draft.pieces);
     if (character != nullptr) {

@@ -101,11 +101,12 @@ std::vector<SitesAlong> sites_along(const SurfaceBranches& sites, std::size_t br
     return along;
 }
 
-void append(const Section& s, std::size_t branch, SectionTable& t) {
+void append(const Section& s, std::size_t branch, double length, SectionTable& t) {
     const SectionMeasures& m = s.measures;
     const auto value = [&](double v) { return s.found ? v : kNaN; };
     t.branch.emplace_back(branch);
     t.abscissa.push_back(s.abscissa);
+    t.relative.push_back(s.abscissa / length);
     t.point.push_back(s.plane.origin);
     t.normal.push_back(s.plane.normal);
     t.area.push_back(value(m.area));
@@ -141,7 +142,7 @@ SectionTable cut_sections(const Surface& surface, const BranchAxes& branches, co
     Vec3 where;
     for (std::size_t b = 0; b < count; ++b)
         for (const Section& s : found[b]) {
-            append(s, b, table);
+            append(s, b, branches.lines.length(b), table);
             if (!s.found && lost++ == 0) where = s.plane.origin;
         }
     if (lost > 0)

@@ -99,9 +99,12 @@ std::vector<double> numbered(std::size_t count) {
 Table table_of_branches(const Branches& b) {
     const BranchTable& t = b.table;
     std::vector<NodeId> first, last;
+    std::vector<Vec3> direction;
     for (const auto& e : b.graph.edges) {
         first.push_back(e[0]);
         last.push_back(e[1]);
+        const Vec3 chord = b.graph.position[at(e[1])] - b.graph.position[at(e[0])];
+        direction.push_back((1 / norm(chord)) * chord);
     }
     return Builder("branches")
         .whole("branch_id", "number of the branch, level by level from the inlets; siblings by descending extent",
@@ -120,6 +123,8 @@ Table table_of_branches(const Branches& b) {
         .add("own_from", "length", "abscissa where the own part starts", kVmtk, b.lines.own_from)
         .add("own_to", "length", "abscissa where the own part ends", kVmtk, b.lines.own_to)
         .add("chord", "length", "D: straight from node to node", kOurs, t.chord)
+        .add({"direction_x", "direction_y", "direction_z"}, "1",
+             "unit vector from the first node to the last; NaN where they are one place", direction)
         .add("length_over_chord", "1", "L/D", kOurs, t.length_over_chord)
         .add("tortuosity", "1", "L/D - 1", kOurs, t.tortuosity)
         .add("taper", "1", "slope of the radius over the abscissa in the own part", kSiegel, t.taper)
@@ -142,6 +147,11 @@ Table table_of_branches(const Branches& b) {
         .take();
 }
 
+constexpr const char* kDiameter =
+    "inscribed diameter at the origin: of the straight line fitted to the radii of the nearest ten radii of the own "
+    "part; "
+    "where that is shorter than the way to the origin, median of its nearest two radii";
+
 Table table_of_bifurcations(const BifurcationTable& t) {
     return Builder("bifurcations")
         .whole("junction_id", "number of the junction", numbered(t.rows()))
@@ -150,7 +160,7 @@ Table table_of_bifurcations(const BifurcationTable& t) {
         .add("child_1", "other branch there of lowest number", t.child_1)
         .add("child_2", "the next one", t.child_2)
         .count("children",
-               "branch ends there but the parent's; angles and ratios of single branches are of the first two",
+               "branch ends there but the parent's, all of which bifurcation_children has; here are the first two",
                t.children)
         .add({"origin_x", "origin_y", "origin_z"}, "length", "point nearest to the straight axes of its branches",
              t.origin)
@@ -171,10 +181,9 @@ Table table_of_bifurcations(const BifurcationTable& t) {
         .add("out_of_plane_2", "deg", "of child_2's direction", kVmtk, t.out_of_plane_2)
         .add("planarity", "deg", "angle between the parent's direction and the plane of the two children; 0 = planar",
              kOurs, t.planarity)
-        .add("parent_diameter", "length", "median inscribed diameter of the parent over two radii next to the junction",
-             kOurs, t.parent_diameter)
-        .add("diameter_1", "length", "the same of child_1", kOurs, t.diameter_1)
-        .add("diameter_2", "length", "the same of child_2", kOurs, t.diameter_2)
+        .add("parent_diameter", "length", kDiameter, kSiegel, t.parent_diameter)
+        .add("diameter_1", "length", "the same of child_1", kSiegel, t.diameter_1)
+        .add("diameter_2", "length", "the same of child_2", kSiegel, t.diameter_2)
         .add("area_ratio", "1", "sum of the squares of all children's diameters over the parent's", kOurs, t.area_ratio)
         .add("diameter_ratio_1", "1", "diameter of child_1 over the parent's", kOurs, t.diameter_ratio_1)
         .add("diameter_ratio_2", "1", "diameter of child_2 over the parent's", kOurs, t.diameter_ratio_2)
@@ -184,10 +193,29 @@ Table table_of_bifurcations(const BifurcationTable& t) {
         .take();
 }
 
+Table table_of_children(const ChildTable& t) {
+    return Builder("bifurcation_children")
+        .add("junction_id", "number of the junction", t.junction)
+        .add("parent", "branch that comes to it first", t.parent)
+        .add("child", "another branch there; twice where both its ends are", t.child)
+        .count("at_last_node", "0 = the child starts there; 1 = it ends there, as a branch that closes a loop",
+               t.at_last_node)
+        .add("angle", "deg", "from the parent's direction to the child's, away from the junction; 0 = straight on",
+             kOurs, t.angle)
+        .add("in_plane", "deg", "the same, both projected into the junction's plane", kVmtk, t.in_plane)
+        .add("out_of_plane", "deg", "of the child's direction out of that plane, along its normal", kVmtk,
+             t.out_of_plane)
+        .add("diameter", "length", "as parent_diameter of bifurcations", kSiegel, t.diameter)
+        .add("diameter_ratio", "1", "diameter over the parent's", kOurs, t.diameter_ratio)
+        .add("area_share", "1", "square of the diameter over the sum of those of all children there", kOurs, t.share)
+        .take();
+}
+
 Table table_of_sections(const SectionTable& t) {
     return Builder("sections")
         .add("branch_id", "branch that is cut", t.branch)
         .add("abscissa", "length", "of the branch", kOurs, t.abscissa)
+        .add("abscissa_relative", "1", "the same over the branch's length, 0 to 1", kOurs, t.relative)
         .add({"point_x", "point_y", "point_z"}, "length", "point of the axis", t.point)
         .add({"normal_x", "normal_y", "normal_z"}, "1", "unit tangent of the axis: normal of the plane", t.normal)
         .add("area", "length^2", "of the component that holds the point", kOurs, t.area)
@@ -264,8 +292,9 @@ Table table_of_patches(const PatchTable& t) {
 }  // namespace
 
 std::vector<Table> branch_tables(const Branches& b) {
-    return {table_of_branches(b),          table_of_bifurcations(b.bifurcations), table_of_sections(b.sections),
-            table_of_stenoses(b.stenoses), table_of_dilations(b.dilations),       table_of_patches(b.patches)};
+    return {table_of_branches(b),          table_of_bifurcations(b.bifurcations), table_of_children(b.children),
+            table_of_sections(b.sections), table_of_stenoses(b.stenoses),         table_of_dilations(b.dilations),
+            table_of_patches(b.patches)};
 }
 
 Table endpoint_table(const Endpoints& endpoints, const BranchGraph& graph) {
@@ -293,13 +322,6 @@ Table endpoint_table(const Endpoints& endpoints, const BranchGraph& graph) {
              radii)
         .add("branch_id", "branch that starts or ends there; -1 = none", branches)
         .take();
-}
-
-std::vector<Table> index_tables(const Branches& branches, const Endpoints& endpoints) {
-    std::vector<Table> tables = branch_tables(branches);
-    tables.pop_back();  // patches are for maps, not for statistics of cohorts
-    tables.push_back(endpoint_table(endpoints, branches.graph));
-    return tables;
 }
 
 }  // namespace lumenline

@@ -43,6 +43,7 @@ struct BranchTable {
 struct SectionTable {
     std::vector<BranchId> branch;
     std::vector<double> abscissa;                    ///< of the branch [length]
+    std::vector<double> relative;                    ///< the same over the length of the branch, 0 to 1
     std::vector<Vec3> point, normal;                 ///< of the axis; unit, along it [length], [1]
     std::vector<double> area, perimeter;             ///< [length^2], [length]
     std::vector<double> equivalent_diameter;         ///< of the circle of the same area [length]
@@ -68,10 +69,21 @@ struct BifurcationTable {
     std::vector<double> in_plane_1, in_plane_2;      ///< of the child against the parent, within the plane
     std::vector<double> out_of_plane_parent, out_of_plane_1, out_of_plane_2;
     std::vector<double> planarity;  ///< angle between the parent and the plane of the two children
-    std::vector<double> parent_diameter, diameter_1, diameter_2;  ///< next to the junction [length]
+    std::vector<double> parent_diameter, diameter_1, diameter_2;  ///< at the origin, by their taper [length]
     std::vector<double> area_ratio, diameter_ratio_1, diameter_ratio_2, asymmetry, murray_exponent;
 
     [[nodiscard]] std::size_t rows() const { return node.size(); }
+};
+
+/// The branches at junctions but the parents, one row for each of their ends there, junction by junction.
+struct ChildTable {
+    std::vector<JunctionId> junction;
+    std::vector<BranchId> parent, child;
+    std::vector<std::uint8_t> at_last_node;               ///< 1: the child ends there, as one that closes a loop
+    std::vector<double> angle, in_plane, out_of_plane;    ///< as in BifurcationTable
+    std::vector<double> diameter, diameter_ratio, share;  ///< share of the children's squared diameters [length], [1]
+
+    [[nodiscard]] std::size_t rows() const { return junction.size(); }
 };
 
 /// The narrowest place of each branch, one row per branch, against the radii that a healthy vessel would have.
@@ -114,6 +126,7 @@ struct PatchTable {
 struct Branches : BranchAxes {
     BranchTable table;
     BifurcationTable bifurcations;
+    ChildTable children;
     SectionTable sections;
     StenosisTable stenoses;
     DilationTable dilations;
@@ -121,14 +134,11 @@ struct Branches : BranchAxes {
     PatchTable patches;
 };
 
-/// The tables of a model with the definitions of their columns: branches, bifurcations, sections, stenoses, dilations,
-/// patches. Without rows, their columns alone.
+/// The tables of a model with the definitions of their columns: branches, bifurcations, bifurcation_children, sections,
+/// stenoses, dilations, patches. Without rows, their columns alone.
 std::vector<Table> branch_tables(const Branches& branches);
 
 /// endpoints: one row per endpoint.
 Table endpoint_table(const Endpoints& endpoints, const BranchGraph& graph);
-
-/// The tables of an index: branches, bifurcations, sections, stenoses, dilations, endpoints.
-std::vector<Table> index_tables(const Branches& branches, const Endpoints& endpoints);
 
 }  // namespace lumenline

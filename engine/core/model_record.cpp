@@ -4,7 +4,6 @@
 #include <array>
 #include <csignal>
 
-#include "engine/core/branch_tables.h"
 
 namespace lumenline {
 
@@ -88,10 +87,6 @@ ModelSummary summarize(const ModelRecord& record) {
         summary.normalized_tangency_deviation = record.character->normalized_tangency_deviation_statistics;
         summary.unreached_sites = record.character->unreached;
     }
-    if (record.branches || record.endpoints)
-        for (const Table& table : index_tables(record.branches ? *record.branches : Branches(),
-                                               record.endpoints ? *record.endpoints : Endpoints()))
-            summary.tables.push_back(rows_of(table));
     return summary;
 }
 

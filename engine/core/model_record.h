@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "engine/core/arrival_field.h"
+#include "engine/core/branch_labels.h"
 #include "engine/core/centerlines.h"
 #include "engine/core/diagnostics.h"
 #include "engine/core/endpoints.h"
 #include "engine/core/surface.h"
 #include "engine/core/surface_character.h"
-#include "engine/core/table.h"
 #include "engine/core/voronoi_complex.h"
 
 namespace lumenline {
@@ -36,6 +36,7 @@ struct ModelIdentity {
     std::string source_sha256;                                    ///< empty when the file could not be read
     std::string inputs_sha256;                                    ///< of everything that determines the result
     std::vector<std::pair<std::string, std::string>> covariates;  ///< column, value as written
+    GivenLabels branch_labels;
 };
 
 /// Why a model failed.
@@ -92,7 +93,6 @@ struct ModelSummary {
     double diagonal = 0;              ///< of the wall's bounding box; 0 = no surface was made [length]
     double edge_over_radius = 0;      ///< the wall's median edge over the lines' median radius; 0 = no line
     double seconds = 0;
-    std::vector<TableRows> tables;  ///< of index_tables, in their order; none where nothing is known
 };
 
 ModelSummary summarize(const ModelRecord& record);

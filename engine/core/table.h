@@ -35,16 +35,4 @@ struct Table {
     [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().rows(); }
 };
 
-/// The values of a table alone, for keeping those of many models.
-struct TableRows {
-    std::size_t rows = 0;
-    std::vector<double> numbers;     ///< column after column, those of text left out
-    std::vector<std::string> texts;  ///< the columns of text in the same way
-};
-
-TableRows rows_of(const Table& table);
-
-/// Appends rows to a table of the same columns.
-void append_rows(const TableRows& rows, Table& table);
-
 }  // namespace lumenline

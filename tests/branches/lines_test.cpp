@@ -96,6 +96,17 @@ TEST(Split, CloseSideBranchesAreOneJunction) {
     EXPECT_EQ(found.graph.branch_count(), 4U);
     ASSERT_EQ(found.bifurcations.rows(), 1U);
     EXPECT_EQ(found.bifurcations.children[0], 3U);
+    // Each child has a row of its own.
+    const ChildTable& c = found.children;
+    EXPECT_EQ(c.child, (std::vector<BranchId>{BranchId(1), BranchId(2), BranchId(3)}));
+    EXPECT_EQ(c.parent, std::vector<BranchId>(3, BranchId(0)));
+    EXPECT_NEAR(c.angle[0], 0, 1) << "the trunk goes straight on";
+    for (const std::size_t k : {1U, 2U}) {
+        EXPECT_NEAR(c.angle[k], 90, 1);
+        EXPECT_NEAR(c.diameter[k], 2, 0.01) << "the radius goes from one at the node to a half at the end";
+        EXPECT_NEAR(c.share[k], 1.0 / 3, 0.01);
+    }
+    EXPECT_NEAR(c.in_plane[1] + c.in_plane[2], 0, 2) << "on both sides";
 }
 
 TEST(Split, LineWithinAnotherHasNoBranch) {
