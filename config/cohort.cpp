@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config/document.h"
+#include "config/labels.h"
 #include "config/models.h"
 #include "config/reader.h"
 #include "config/text_file.h"
@@ -82,8 +83,12 @@ PipelineOptions read_options(const MapReader& top) {
     t.topology = enumerated(centerlines.choice("topology"), t.topology, std::array{Topology::kTree, Topology::kNetwork},
                             topology_name);
     options.characterize = top.boolean("characterize").value_or(options.characterize);
-    const MapReader branches = top.section("branches");
     BranchOptions& b = options.branches;
+    if (const auto enabled = top.instead_of_map("branches")) {
+        b.enabled = *enabled;
+        return options;
+    }
+    const MapReader branches = top.section("branches");
     b.enabled = branches.boolean("enabled").value_or(b.enabled);
     b.step = branches.number("step").value_or(b.step);
     b.smoothing = branches.number("smoothing").value_or(b.smoothing);
@@ -160,6 +165,7 @@ CohortConfig parse_cohort(const std::string& text, const std::filesystem::path& 
         top.choice("coordinate_system").value_or(prototype.identity.coordinate_system);
     prototype.options = read_options(top);
     config.tasks = read_models(top, prototype, folder);
+    config.labels = read_population(top, folder, config.tasks);
     return config;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/archive_options.h"
+#include "engine/core/branch_labels.h"
 #include "engine/core/options.h"
 
 namespace lumenline {
@@ -58,6 +59,7 @@ struct CohortConfig {
     std::filesystem::path file;    ///< as given to load_cohort
     std::string text;              ///< of the file, byte for byte
     std::vector<ModelTask> tasks;  ///< at least one; in the order of the list or table, globs by path
+    LabelOptions labels;           ///< how branches correspond across models
     RunOptions run;
     ArchiveSettings archive;
 };

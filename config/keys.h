@@ -23,7 +23,7 @@ struct Limits {
 /// One key of the configuration. SCHEMA.md and cohort.schema.json say the same; a test compares them.
 struct KeyInfo {
     std::string_view path;           ///< dotted; "[]" marks the elements of a list
-    std::string_view type;           ///< text, path, choice, number, integer, boolean, size, duration, points (or text), list, map
+    std::string_view type;           ///< text, path, choice, number, integer, boolean, size, duration, points (or text), list, map, boolean or map
     std::string_view choices;        ///< words that stand for a value, separated by '|'
     std::string_view unit;           ///< "-" = none
     std::string_view default_value;  ///< as in YAML; "required"; "-" = without the key there is nothing

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "config/cohort.h"
+#include "config/labels.h"
 #include "config/table.h"
 #include "config/text_file.h"
 
@@ -119,6 +120,7 @@ void read_list(const YamlNode& list, const std::filesystem::path& file, const Mo
         state_inlets(task, std::move(inlets), std::move(rules));
         task.options.endpoints.outlets = model.points("outlets");
         task.scale = model.number("scale").value_or(task.scale);
+        task.identity.branch_labels = read_branch_labels(model);
         task.identity.covariates = read_covariates(model);
         collector.add(std::move(task), model.place(id), fmt::format("in line {}", id.value->line));
     }
@@ -210,6 +212,8 @@ ModelTask read_row(const DelimitedTable& table, const DelimitedTable::Row& row, 
     else
         state_inlets(task, points("inlets"), {});
     task.options.endpoints.outlets = points("outlets");
+    const auto [labels_place, labels] = cell("branch_labels");
+    task.identity.branch_labels = parse_branch_labels(labels_place, labels);
     const auto [scale_place, scale] = cell("scale");
     if (!scale.empty()) task.scale = parse_number(scale_place, scale, key_info("models.list[].scale"));
     for (const std::size_t i : columns.covariates) {

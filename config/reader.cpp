@@ -79,6 +79,15 @@ MapReader MapReader::section(std::string_view key) const {
     return {file_, entry == nullptr ? kEmpty : *entry->value, std::string(info(key).path), fmt::format("'{}'", key)};
 }
 
+std::optional<bool> MapReader::instead_of_map(std::string_view key) const {
+    const YamlEntry* entry = find(key);
+    if (entry == nullptr || entry->value->kind == YamlNode::Kind::kMap) return std::nullopt;
+    const std::string& value = unquoted(*entry, "true, false or a map of keys").text;
+    if (value != "true" && value != "false")
+        fail(place(*entry), fmt::format("must be true, false or a map of keys, not {}", in_quotes(value)));
+    return value == "true";
+}
+
 const YamlNode& MapReader::scalar(const YamlEntry& entry, std::string_view expected) const {
     if (entry.value->kind != YamlNode::Kind::kScalar)
         fail(place(entry), fmt::format("must be {}, not {}", expected, kind_phrase(*entry.value)));

@@ -29,6 +29,8 @@ public:
 
     /// The map below `key`, or an empty one.
     [[nodiscard]] MapReader section(std::string_view key) const;
+    /// Of a key that may be true or false instead of a map: which of them; empty where it is a map or absent.
+    [[nodiscard]] std::optional<bool> instead_of_map(std::string_view key) const;
 
     [[nodiscard]] std::optional<std::string> text(std::string_view key) const;  ///< scalar as written
     [[nodiscard]] std::optional<std::string> choice(std::string_view key) const;

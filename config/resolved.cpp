@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "config/cohort.h"
+#include "config/labels.h"
 #include "engine/core/text.h"
 
 namespace lumenline {
@@ -67,6 +68,9 @@ void write_model(YAML::Emitter& out, const ModelTask& task) {
         write_quoted(out, "inlets", rules);
     write_points(out, "outlets", task.options.endpoints.outlets);
     write(out, "scale", exact_text(task.scale));
+    write_section(out, "branch_labels");
+    for (const auto& [branch, label] : who.branch_labels) write_text(out, std::to_string(branch), label);
+    out << YAML::EndMap;
     write_section(out, "covariates");
     for (const auto& [name, value] : who.covariates) write_text(out, name, value);
     out << YAML::EndMap << YAML::EndMap;
@@ -134,6 +138,11 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "section_step", exact_text(b.section_step));
     write(out, "patches_along", std::to_string(b.patches_along));
     write(out, "patches_around", std::to_string(b.patches_around));
+    out << YAML::EndMap;
+    write_section(out, "population");
+    write(out, "labels", label_rule_name(config.labels.rule));
+    write_quoted(out, "template", config.labels.template_model);
+    write(out, "directions", config.labels.axes ? "axes" : "angles");
     out << YAML::EndMap;
     write_section(out, "run");
     write(out, "threads", count_or(config.run.threads, "all"));

@@ -21,6 +21,8 @@ std::string task_text(const ModelTask& task) {
                                     who.length_unit, who.coordinate_system, who.source_file})
         text += "|" + part;
     for (const auto& [name, value] : who.covariates) text.append("|").append(name).append("=").append(value);
+    for (const auto& [branch, label] : who.branch_labels)
+        text.append("|").append(std::to_string(branch)).append("=").append(label);
     return text;
 }
 
@@ -35,6 +37,9 @@ void expect_same(const CohortConfig& a, const CohortConfig& b) {
     EXPECT_EQ(a.run.isolation, b.run.isolation);
     EXPECT_EQ(a.archive.directory, b.archive.directory);
     EXPECT_EQ(a.archive.options.float32_fields, b.archive.options.float32_fields);
+    EXPECT_EQ(a.labels.rule, b.labels.rule);
+    EXPECT_EQ(a.labels.template_model, b.labels.template_model);
+    EXPECT_EQ(a.labels.axes, b.labels.axes);
     ASSERT_EQ(a.tasks.size(), b.tasks.size());
     for (std::size_t i = 0; i < a.tasks.size(); ++i) EXPECT_EQ(task_text(a.tasks[i]), task_text(b.tasks[i]));
 }
