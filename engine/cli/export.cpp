@@ -41,7 +41,10 @@ int run(const Request& request) {
     try {
         std::filesystem::create_directories(request.directory);
         const std::size_t files =
-            request.format == "csv" ? export_tables(request.archive, request.directory).size() : export_models(request);
+            request.format == "vtp" ? export_models(request)
+                                    : export_tables(request.archive, request.directory,
+                                                    request.format == "csv" ? TableFormat::kCsv : TableFormat::kTsv)
+                                          .size();
         fmt::print("{} written to {}\n", counted(files, "file"), request.directory);
         return kDone;
     } catch (const UnknownName& error) {
@@ -59,9 +62,9 @@ void add_export(CLI::App& app, std::function<int()>& action) {
         ->required();
     verb->add_option("--to", request->format,
                      "vtp: surface, lines and Voronoi diagram of each model, for VMTK, Slicer, SimVascular, ParaView; "
-                     "csv: the tables of the cohort and their dictionary")
+                     "csv, tsv: the tables of the cohort, and dictionary.json, which says what their columns are")
         ->required()
-        ->check(CLI::IsMember({"vtp", "csv"}));
+        ->check(CLI::IsMember({"vtp", "csv", "tsv"}));
     verb->add_option("-o,--output", request->directory, "directory, made where it is missing")->required();
     verb->add_option("--model", request->models, "of these models only; may be repeated (vtp)");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });

@@ -21,6 +21,7 @@
 #include "engine/cli/estimates.h"
 #include "engine/cli/isolated.h"
 #include "engine/cli/lease_wait.h"
+#include "engine/cli/make_index.h"
 #include "engine/cli/model_io.h"
 #include "engine/cli/plan.h"
 #include "engine/cli/progress.h"
@@ -183,7 +184,7 @@ private:
             else if (std::optional<ModelSummary> row = index_row(config_.archive, *task))
                 rows_.push_back(std::move(*row));
         }
-        if (!is_shard) write_index(config_.archive.directory, rows_, config_.text, resolved_text(config_));
+        if (!is_shard) make_index(config_, rows_);
     }
 
     int finish(const RunReport& report) {

@@ -16,6 +16,7 @@
 #include "config/cohort.h"
 #include "engine/cli/estimates.h"
 #include "engine/cli/lease_wait.h"
+#include "engine/cli/make_index.h"
 #include "engine/cli/model_io.h"
 #include "engine/cli/plan.h"
 #include "engine/cli/run.h"
@@ -227,7 +228,7 @@ int merge(const std::string& cohort, bool wait) {
         ++counts[row->status];
         rows.push_back(std::move(*row));
     }
-    write_index(config.archive.directory, rows, config.text, resolved_text(config));
+    make_index(config, rows);
     const std::size_t missing = config.tasks.size() - rows.size();
     to_standard_output([&](std::ostream& out) {
         out << fmt::format("{} ok, {} with warnings, {} failed, {} missing\narchive: {}\n", counts[ModelStatus::kOk],

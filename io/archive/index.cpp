@@ -14,13 +14,12 @@
 #include <set>
 #include <system_error>
 
-#include "engine/core/branch_tables.h"
 #include "engine/core/size_note.h"
 #include "engine/core/version.h"
 #include "io/archive/file_stamp.h"
 #include "io/archive/index_names.h"
+#include "io/archive/index_rows.h"
 #include "io/archive/model_file.h"
-#include "io/archive/tables.h"
 #include "io/archive/utf8.h"
 #include "io/archive/writer.h"
 
@@ -216,22 +215,6 @@ void write_file_stamps(Writer& writer, const std::filesystem::path& archive_dir,
     writer.column(names::kFileTime, times);
 }
 
-/// The rows of all models' tables, with the model's id in front.
-void write_tables(Writer& writer, Models models) {
-    std::vector<Table> tables = index_tables(Branches(), Endpoints());
-    for (std::size_t t = 0; t < tables.size(); ++t) {
-        Column id{"id", "1", "name of the model", "", ColumnKind::kText, {}, {}};
-        for (const ModelSummary& model : models) {
-            if (model.tables.empty()) continue;
-            id.texts.insert(id.texts.end(), model.tables.at(t).rows, model.identity.id);
-            append_rows(model.tables[t], tables[t]);
-        }
-        tables[t].columns.insert(tables[t].columns.begin(), std::move(id));
-        hdf::write_table(writer, std::string("/tables/") + tables[t].name, tables[t]);
-        tables[t].columns.clear();
-    }
-}
-
 void write_seconds(Writer& writer, Models models) {
     identity_column(writer, names::kSecondsId, models, &ModelIdentity::id);
     std::vector<double> seconds;
@@ -241,8 +224,9 @@ void write_seconds(Writer& writer, Models models) {
 
 }  // namespace
 
-void write_index(const std::filesystem::path& archive_dir, std::span<const ModelSummary> models,
-                 std::string_view config_text, std::string_view resolved_config) {
+std::vector<std::string> write_index(const std::filesystem::path& archive_dir, std::span<const ModelSummary> models,
+                                     std::string_view config_text, std::string_view resolved_config,
+                                     const BranchLabeller& label) {
     const std::filesystem::path file = archive_dir / names::kIndexFile;
     const auto refuse = [&](const std::string& reason) {
         throw StageError(Stage::kArchive, ErrorCode::kArchiveWrite,
@@ -259,12 +243,14 @@ void write_index(const std::filesystem::path& archive_dir, std::span<const Model
         write_models(writer, models);
         write_covariates(writer, models);
         write_failures(writer, models);
-        write_tables(writer, models);
+        std::vector<std::string> unread = hdf::write_branch_tables(writer, archive_dir, models, label);
+        hdf::write_dictionary(writer);
         writer.text(names::kConfigGiven, config_text);
         writer.text(names::kConfigResolved, resolved_config);
         write_seconds(writer, models);
         write_file_stamps(writer, archive_dir, models);
         writer.commit();
+        return unread;
     } catch (const hdf::Inconsistent& error) {
         throw StageError(Stage::kArchive, ErrorCode::kInternal,
                          "the index '" + file.string() + "' cannot be made: " + error.what());
@@ -273,6 +259,7 @@ void write_index(const std::filesystem::path& archive_dir, std::span<const Model
     } catch (const std::system_error& error) {
         refuse(error.what());
     }
+    return {};
 }
 
 }  // namespace lumenline

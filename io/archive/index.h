@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -8,10 +9,14 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/branch_labels.h"
 #include "engine/core/model_record.h"
 #include "io/archive/errors.h"
 
 namespace lumenline {
+
+/// Labels of the branches of all models from their trees, both in the order of the rows.
+using BranchLabeller = std::function<std::vector<BranchLabels>(std::span<const BranchTree>)>;
 
 /// Writes `cohort.h5` of an archive: an external link to each model's file, the tables, and the
 /// configuration, in the format of io/ARCHIVE.md.
@@ -20,12 +25,17 @@ namespace lumenline {
 /// covariate that any model has becomes a column of all: of numbers (NaN where a model has none)
 /// if all its values that are neither empty nor "n/a" are numbers, else of text. Seconds go to
 /// /timing, so that the bytes outside of it depend on the models and the configuration alone.
-/// The model files need not exist. Written and renamed like a model file.
+/// The rows of the branches' tables come from the model files, one model after the other, so that memory does not grow
+/// with them; a model without a file, or with one that cannot be read, has none. Written and renamed like a model file.
 ///
 /// @param archive_dir  must exist
+/// @param label        labels the branches; without it they have none
+/// @returns            a sentence for each file that cannot be read
 /// @throws StageError kArchiveWrite; kInternal if an id is no file name or appears twice
-void write_index(const std::filesystem::path& archive_dir, std::span<const ModelSummary> models,
-                 std::string_view config_text, std::string_view resolved_config);
+/// @cost two looks at each model file: some milliseconds a model
+std::vector<std::string> write_index(const std::filesystem::path& archive_dir, std::span<const ModelSummary> models,
+                                     std::string_view config_text, std::string_view resolved_config,
+                                     const BranchLabeller& label = {});
 
 /// Models of `cohort.h5` as their table states them, without covariates and with the length 0
 /// (as `summarize` gives it) where the table has NaN.

@@ -89,6 +89,13 @@ inline constexpr Field kFailedStage{"/tables/failures/stage", "1", "stage that f
 inline constexpr Field kFailedCode{"/tables/failures/code", "1", "why, as a stable name"};
 inline constexpr Field kFailedSentence{"/tables/failures/sentence", "1", "why, in one sentence"};
 
+inline constexpr Field kDictionaryTable{"/dictionary/table", "1", "table below /tables"};
+inline constexpr Field kDictionaryColumn{"/dictionary/column", "1", "its column"};
+inline constexpr Field kDictionaryType{"/dictionary/type", "1", "float64 | int32 | string"};
+inline constexpr Field kDictionaryUnit{"/dictionary/unit", "1", "of the values; 1 = none"};
+inline constexpr Field kDictionaryDefinition{"/dictionary/definition", "1", "what the values are"};
+inline constexpr Field kDictionarySource{"/dictionary/source", "1", "publication that the definition follows; empty = none"};
+
 inline constexpr Field kConfigGiven{"/config/given", "1", "configuration, as given"};
 inline constexpr Field kConfigResolved{"/config/resolved", "1", "configuration, with all defaults and paths resolved"};
 

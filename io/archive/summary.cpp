@@ -8,13 +8,11 @@
 #include <memory>
 #include <optional>
 
-#include "engine/core/branch_tables.h"
-#include "io/archive/branch_names.h"
 #include "io/archive/index.h"
 #include "io/archive/index_names.h"
 #include "io/archive/line_names.h"
+#include "io/archive/model_tables.h"
 #include "io/archive/read.h"
-#include "io/archive/tables.h"
 
 namespace lumenline {
 
@@ -101,53 +99,6 @@ std::shared_ptr<const Centerlines> read_lines(const ArchiveFile& file) {
     if (lines->offsets.size() != lines->source.size() + 1 || lines->radius.size() != lines->abscissa.size())
         damaged(file, "the arrays of /centerlines are not of matching length");
     return lines;
-}
-
-std::shared_ptr<const Endpoints> read_endpoints(const ArchiveFile& file) {
-    auto endpoints = std::make_shared<Endpoints>();
-    const std::vector<std::string> roles = file.strings(names::kEndpointRole.path);
-    const std::vector<std::string> kinds = file.strings(names::kEndpointKind.path);
-    const std::vector<double> points = file.numbers(names::kEndpointPoint.path);
-    const std::vector<double> radii = file.numbers(names::kEndpointRadius.path);
-    if (kinds.size() != roles.size() || points.size() != 3 * roles.size() || radii.size() != roles.size())
-        damaged(file, "the arrays of /endpoints are not of matching length");
-    for (std::size_t e = 0; e < roles.size(); ++e) {
-        Endpoint endpoint;
-        endpoint.role = roles[e] == role_name(EndpointRole::kInlet) ? EndpointRole::kInlet : EndpointRole::kOutlet;
-        if (role_name(endpoint.role) != roles[e]) damaged(file, "'" + roles[e] + "' is no role of an endpoint");
-        for (const EndpointKind kind :
-             {EndpointKind::kBoundary, EndpointKind::kPoint, EndpointKind::kTip, EndpointKind::kCap})
-            if (kind_name(kind) == kinds[e]) endpoint.kind = kind;
-        if (kind_name(endpoint.kind) != kinds[e]) damaged(file, "'" + kinds[e] + "' is no kind of an endpoint");
-        endpoint.point = {points[3 * e], points[3 * e + 1], points[3 * e + 2]};
-        endpoint.radius = radii[e];
-        endpoints->push_back(endpoint);
-    }
-    return endpoints;
-}
-
-/// The tables of the branches, and the branches of the endpoints.
-std::vector<TableRows> read_tables(const ArchiveFile& file, const Endpoints& ends) {
-    std::vector<Table> tables = index_tables(Branches(), ends);
-    std::vector<TableRows> rows;
-    for (std::size_t t = 0; t + 1 < tables.size(); ++t) {
-        hdf::read_table(file, std::string("/") + tables[t].name, tables[t]);
-        rows.push_back(rows_of(tables[t]));
-    }
-    if (file.has(names::kEdges.path)) {
-        const std::vector<double> endpoints = file.numbers(names::kNodeEndpoint.path);
-        const std::vector<double> edges = file.numbers(names::kEdges.path);
-        std::vector<double>& branches = tables.back().columns.back().numbers;
-        for (std::size_t k = 0; k < edges.size(); ++k) {
-            if (!(edges[k] >= 0 && edges[k] < static_cast<double>(endpoints.size())))
-                damaged(file, "/graph/edges name nodes that do not exist");
-            const double endpoint = endpoints[static_cast<std::size_t>(edges[k])];
-            if (endpoint >= 0 && endpoint < static_cast<double>(branches.size()))
-                branches[static_cast<std::size_t>(endpoint)] = static_cast<double>(k / 2);
-        }
-    }
-    rows.push_back(rows_of(tables.back()));
-    return rows;
 }
 
 AreaStatistics read_statistics(const ArchiveFile& file, const names::Field& field) {
@@ -321,7 +272,7 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     if (record.status == ModelStatus::kFailed) record.failure = read_failure(file);
     record.diagnostics = read_severities(file);
     if (file.has(names::kSurface)) record.surface = read_surface_sizes(file);
-    if (file.has(names::kEndpointRole.path)) record.endpoints = read_endpoints(file);
+    if (file.has(names::kEndpointRole.path)) record.endpoints = std::make_shared<const Endpoints>(hdf::read_endpoints(file));
     if (file.has(names::kRadius.path)) record.centerlines = read_lines(file);
     if (file.has(names::kStatisticsGeodesic.path)) record.character = read_character(file);
     record.facts.total_seconds = only_number(file, names::kTotalSeconds);
@@ -331,7 +282,6 @@ ModelSummary read_summary(const std::filesystem::path& model_file) {
     summary.triangles = count_of(file, names::kStatedTriangles, names::kTriangles);
     summary.voronoi_vertices = count_of(file, names::kStatedVertices, names::kVertices);
     summary.polygons = count_of(file, names::kStatedPolygons, names::kPolygonSites);
-    if (record.endpoints) summary.tables = read_tables(file, *record.endpoints);
     return summary;
 }
 

@@ -45,6 +45,18 @@ hid_t file_type(Number number) {
     return H5T_IEEE_F64LE;
 }
 
+/// As readers call it.
+const char* type_name(Number number) {
+    switch (number) {
+        case Number::kFloat64: return "float64";
+        case Number::kFloat32: return "float32";
+        case Number::kInt32: return "int32";
+        case Number::kInt64: return "int64";
+        case Number::kUint8: return "uint8";
+    }
+    return "float64";
+}
+
 Handle without_times(hid_t property_class) {
     Handle properties = property_list(property_class);
     checked(H5Pset_obj_track_times(properties.get(), false), "property list");
@@ -115,7 +127,7 @@ void Writer::vtk_attributes(const std::string& object) {
     put_attribute(file_.get(), object, "Version", H5T_STD_I64LE, extent(1, &kShape), H5T_NATIVE_INT64, kVersion.data());
 }
 
-Handle Writer::create(const names::Field& field, std::span<const hsize_t> shape, hid_t type) {
+Handle Writer::create(const names::Field& field, std::span<const hsize_t> shape, hid_t type, const char* type_name) {
     make_parents(field.path);
     const Handle space = extent(static_cast<int>(shape.size()), shape.data());
     Handle dataset(H5Dcreate2(file_.get(), field.path, type, space.get(), H5P_DEFAULT,
@@ -126,12 +138,13 @@ Handle Writer::create(const names::Field& field, std::span<const hsize_t> shape,
         units.replace(at, names::kLength.size(), length_unit_);
     attribute(field.path, "units", units);
     attribute(field.path, "description", field.description);
+    described_.push_back({field.path, type_name, units, field.description});
     return dataset;
 }
 
 void Writer::numbers(const names::Field& field, std::span<const hsize_t> shape, Number in_memory, Number in_file,
                      std::span<const Rows> parts) {
-    const Handle dataset = create(field, shape, file_type(in_file));
+    const Handle dataset = create(field, shape, file_type(in_file), type_name(in_file));
     if (std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end()) return;
     std::vector<hsize_t> start(shape.size(), 0);
     std::vector<hsize_t> count(shape.begin(), shape.end());
@@ -160,6 +173,17 @@ void Writer::number(const names::Field& field, std::int32_t value) {
     numbers(field, {}, Number::kInt32, Number::kInt32, {&row, 1});
 }
 
+namespace {
+
+/// Texts of `width` bytes each, padded with NUL.
+std::vector<char> block_of(const std::vector<std::string>& valid, std::size_t width) {
+    std::vector<char> block(width * valid.size(), '\0');
+    for (std::size_t i = 0; i < valid.size(); ++i) std::copy(valid[i].begin(), valid[i].end(), &block[i * width]);
+    return block;
+}
+
+}  // namespace
+
 void Writer::strings(const names::Field& field, const std::vector<std::string>& values) {
     std::vector<std::string> valid(values.size());
     std::size_t width = 1;
@@ -167,19 +191,53 @@ void Writer::strings(const names::Field& field, const std::vector<std::string>& 
         valid[i] = valid_text(values[i]);
         width = std::max(width, valid[i].size());
     }
-    std::vector<char> block(width * values.size(), '\0');
-    for (std::size_t i = 0; i < valid.size(); ++i) std::copy(valid[i].begin(), valid[i].end(), &block[i * width]);
     const Handle type = string_type(width);
     const hsize_t count = values.size();
-    const Handle dataset = create(field, {&count, 1}, type.get());
+    const Handle dataset = create(field, {&count, 1}, type.get(), "string");
     if (count > 0)
-        checked(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()), field.path);
+        checked(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block_of(valid, width).data()),
+                field.path);
+}
+
+Handle Writer::begin_numbers(const names::Field& field, std::size_t rows, Number in_file) {
+    const hsize_t count = rows;
+    return create(field, {&count, 1}, file_type(in_file), type_name(in_file));
+}
+
+Handle Writer::begin_strings(const names::Field& field, std::size_t rows, std::size_t width) {
+    const hsize_t count = rows;
+    return create(field, {&count, 1}, string_type(width).get(), "string");
+}
+
+void Writer::put(const Handle& dataset, const std::string& what, std::size_t first, std::size_t count, hid_t memory,
+                 const void* data) {
+    if (count == 0) return;
+    const hsize_t start = first, length = count;
+    const Handle source = extent(1, &length);
+    const Handle target(H5Dget_space(dataset.get()), H5Sclose, what);
+    checked(H5Sselect_hyperslab(target.get(), H5S_SELECT_SET, &start, nullptr, &length, nullptr), what);
+    checked(H5Dwrite(dataset.get(), memory, source.get(), target.get(), H5P_DEFAULT, data), what);
+    sink_.require_good();
+}
+
+void Writer::put(const Handle& dataset, const std::string& what, std::size_t first, const std::vector<double>& values) {
+    put(dataset, what, first, values.size(), H5T_NATIVE_DOUBLE, values.data());
+}
+
+void Writer::put(const Handle& dataset, const std::string& what, std::size_t first,
+                 const std::vector<std::string>& values, std::size_t width) {
+    std::vector<std::string> valid;
+    for (const std::string& value : values) {
+        valid.push_back(valid_text(value));
+        if (valid.back().size() > width) throw Inconsistent(what + " holds a text longer than its column");
+    }
+    put(dataset, what, first, values.size(), string_type(width).get(), block_of(valid, width).data());
 }
 
 void Writer::text(const names::Field& field, std::string_view value) {
     const std::string valid = valid_text(value);
     const Handle type = string_type(valid.size());
-    const Handle dataset = create(field, {}, type.get());
+    const Handle dataset = create(field, {}, type.get(), "string");
     checked(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, valid.c_str()), field.path);
 }
 

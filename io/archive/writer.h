@@ -107,11 +107,25 @@ public:
     void number(const names::Field& field, double value);
     void number(const names::Field& field, std::int32_t value);
     void strings(const names::Field& field, const std::vector<std::string>& values);
+
+    /// A dataset of `rows` values, of which `put` writes some at a time. Text has at most `width` bytes of UTF-8.
+    Handle begin_numbers(const names::Field& field, std::size_t rows, Number in_file);
+    Handle begin_strings(const names::Field& field, std::size_t rows, std::size_t width);
+    /// Rows from `first` on. @param what  path, for messages
+    void put(const Handle& dataset, const std::string& what, std::size_t first, const std::vector<double>& values);
+    void put(const Handle& dataset, const std::string& what, std::size_t first, const std::vector<std::string>& values,
+             std::size_t width);
     /// One text of rank 0 and any length.
     void text(const names::Field& field, std::string_view value);
 
     /// External link `path` -> root group of `file` (relative to the directory of this file).
     void external_link(const std::string& path, const std::string& file);
+
+    /// What was written, in order.
+    struct Described {
+        std::string path, type, units, description;
+    };
+    [[nodiscard]] const std::vector<Described>& described() const { return described_; }
 
     /// Closes the file and makes it appear. Nothing can be written afterwards.
     void commit();
@@ -119,7 +133,9 @@ public:
 private:
     static void require_count(const names::Field& field, std::size_t count, std::size_t expected);
     static void require_int32(const names::Field& field, std::span<const std::int32_t> values, std::size_t components);
-    Handle create(const names::Field& field, std::span<const hsize_t> shape, hid_t type);
+    Handle create(const names::Field& field, std::span<const hsize_t> shape, hid_t type, const char* type_name);
+    void put(const Handle& dataset, const std::string& what, std::size_t first, std::size_t count, hid_t memory,
+             const void* data);
     void make_parents(const std::string& path);
 
     std::filesystem::path path_;
@@ -127,6 +143,7 @@ private:
     Sink sink_;
     Handle file_;  // closed before its sink
     std::set<std::string> groups_{"/", ""};
+    std::vector<Described> described_;
 };
 
 }  // namespace lumenline::hdf

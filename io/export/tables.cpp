@@ -1,9 +1,11 @@
 #include "io/export/tables.h"
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "engine/core/text.h"
 #include "io/archive/commit.h"
@@ -15,50 +17,94 @@ namespace {
 
 constexpr std::string_view kTables = "/tables/";
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == text.npos) return text;
+/// How a format writes its cells.
+struct Style {
+    const char *separator, *line_end, *missing;
+    const char* to_quote;  ///< characters that put a cell into quotes
+};
+
+const Style& style_of(TableFormat format) {
+    static constexpr Style kCsv{",", "\r\n", "", ",\"\r\n"};
+    static constexpr Style kTsv{"\t", "\n", "n/a", "\t\"\r\n"};
+    return format == TableFormat::kCsv ? kCsv : kTsv;
+}
+
+std::string quoted(const std::string& text, const Style& style) {
+    if (text.empty()) return style.missing;
+    if (text.find_first_of(style.to_quote) == text.npos) return text;
     std::string result = "\"";
-    for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char c : text) result.append(c == '"' ? 2 : 1, c);
     return result + "\"";
 }
 
-void write_csv(const DataTable& table, std::ostream& out) {
-    for (std::size_t c = 0; c < table.columns.size(); ++c) out << (c > 0 ? "," : "") << quoted(table.columns[c].name);
-    out << "\r\n";
+void write_rows(const DataTable& table, const Style& style, std::ostream& out) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+        out << (c > 0 ? style.separator : "") << quoted(table.columns[c].name, style);
+    out << style.line_end;
     for (std::size_t row = 0; row < table.rows; ++row) {
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
             const DataColumn& column = table.columns[c];
-            out << (c > 0 ? "," : "");
+            out << (c > 0 ? style.separator : "");
             if (!column.is_number())
-                out << quoted(column.texts()[row]);
-            else if (!std::isnan(column.numbers()[row]))
+                out << quoted(column.texts()[row], style);
+            else if (std::isnan(column.numbers()[row]))
+                out << style.missing;
+            else
                 out << exact_text(column.numbers()[row]);
         }
-        out << "\r\n";
+        out << style.line_end;
     }
 }
+
+/// What the index says of the columns below /tables: type and source by path.
+class ColumnFacts {
+public:
+    explicit ColumnFacts(const std::filesystem::path& archive) : index_(index_or_file(archive)) {
+        for (const ArchiveNode& node : index_.nodes()) {
+            if (!node.path.starts_with(kTables)) continue;
+            if (node.is_group)
+                tables_.push_back(node.path.substr(kTables.size()));
+            else
+                types_.emplace(node.path, node.type);
+        }
+    }
+
+    [[nodiscard]] const std::vector<std::string>& tables() const { return tables_; }
+
+    /// A column that a table lacks is joined from that of the models.
+    [[nodiscard]] nlohmann::ordered_json entry(const std::string& table, const DataColumn& c) const {
+        std::string path = std::string(kTables) + table + "/" + c.name;
+        if (!types_.contains(path)) path = std::string(kTables) + "models/" + c.name;
+        const auto type = types_.find(path);
+        return {{"table", table},
+                {"column", c.name},
+                {"type", type == types_.end() ? "" : type->second},
+                {"unit", c.units},
+                {"definition", c.description},
+                {"source", type == types_.end() ? "" : index_.attribute(path, "source").value_or("")}};
+    }
+
+private:
+    ArchiveFile index_;
+    std::vector<std::string> tables_;
+    std::map<std::string, std::string> types_;
+};
 
 }  // namespace
 
 std::vector<std::filesystem::path> export_tables(const std::filesystem::path& archive,
-                                                 const std::filesystem::path& directory) {
-    std::vector<std::string> tables;
-    {
-        const ArchiveFile index(index_or_file(archive));
-        for (const ArchiveNode& node : index.nodes())
-            if (node.is_group && node.path.starts_with(kTables)) tables.push_back(node.path.substr(kTables.size()));
-    }
+                                                 const std::filesystem::path& directory, TableFormat format) {
+    const ColumnFacts facts(archive);
+    if (facts.tables().empty())
+        throw UnknownName("'" + archive.string() + "' has no tables: it is no archive of a cohort");
     std::vector<std::filesystem::path> written;
     nlohmann::ordered_json dictionary = nlohmann::ordered_json::array();
-    for (const std::string& name : tables) {
+    for (const std::string& name : facts.tables()) {
         const DataTable table = read_data_table(archive, name);
-        for (const DataColumn& c : table.columns)
-            dictionary.push_back(
-                {{"table", name}, {"column", c.name}, {"unit", c.units}, {"definition", c.description}});
-        written.push_back(directory / (name + ".csv"));
-        write_file(written.back(), [&](std::ostream& out) { write_csv(table, out); });
+        for (const DataColumn& c : table.columns) dictionary.push_back(facts.entry(name, c));
+        written.push_back(directory / (name + (format == TableFormat::kCsv ? ".csv" : ".tsv")));
+        write_file(written.back(), [&](std::ostream& out) { write_rows(table, style_of(format), out); });
     }
-    if (tables.empty()) throw UnknownName("'" + archive.string() + "' has no tables: it is no archive of a cohort");
     written.push_back(directory / "dictionary.json");
     write_file(written.back(), [&](std::ostream& out) {
         out << dictionary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';

@@ -176,10 +176,7 @@ TEST(Format, ModelFileIsAsDocumented) {
 TEST(Format, IndexIsAsDocumented) {
     const Specification spec = specification("Index");
     ASSERT_GT(spec.datasets.size(), 30U);
-    const auto directory = fresh_directory("format_index");
-    const std::vector<ModelSummary> models{summarize(sample_record("a")), summarize(sample_record("b")),
-                                           summarize(failed_record("c"))};
-    write_index(directory, models, "given", "resolved");
+    const auto directory = sample_archive({sample_record("a"), sample_record("b"), failed_record("c")}, "format_index");
     std::set<std::string> seen;
     EXPECT_EQ(complaints(ArchiveFile(directory / "cohort.h5"), spec, seen), Strings{});
     EXPECT_EQ(missing(spec, seen), Strings{});

@@ -1,6 +1,7 @@
 // The verb `export` on an archive of a tree and a failure; its files as VTK and a reader of CSV see them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -56,10 +57,23 @@ TEST(Export, TablesHaveADictionaryAndQuotedText) {
         if (entry.at("table") == "branches" && entry.at("column") == "length") {
             found = true;
             EXPECT_EQ(entry.at("unit"), "mm");
+            EXPECT_EQ(entry.at("type"), "float64");
             EXPECT_FALSE(entry.at("definition").get<std::string>().empty());
         }
     EXPECT_TRUE(found);
     EXPECT_TRUE(std::filesystem::exists(folder / "csv" / "branches.csv"));
+    // Columns that were joined from the models have their own type and unit.
+    const auto is_joined = [](const auto& e) { return e.at("table") == "sections" && e.at("column") == "sites"; };
+    const auto joined = std::find_if(dictionary.begin(), dictionary.end(), is_joined);
+    ASSERT_NE(joined, dictionary.end());
+    EXPECT_EQ(joined->at("type"), "int32");
+    // With tabs, as BIDS has it, the same.
+    ASSERT_EQ(run_lumenline({"export", "results", "--to", "tsv", "-o", "tsv"}, folder).status, 0);
+    const auto tabs = cli_test::lines_of(cli_test::read_text(folder / "tsv" / "models.tsv"));
+    ASSERT_EQ(tabs.size(), 3U);
+    EXPECT_NE(tabs[1].find("\t\"a, \"\"b\"\"\"\t"), std::string::npos) << tabs[1];
+    EXPECT_NE(tabs[2].find("\tn/a\t"), std::string::npos) << "the failed model has no lengths";
+    EXPECT_EQ(nlohmann::json::parse(cli_test::read_text(folder / "tsv" / "dictionary.json")), dictionary);
 }
 
 TEST(Export, WrongRequestsAreRefusedInOneSentence) {
