@@ -71,6 +71,9 @@ std::size_t digest(const Centerlines& lines) { return bench::digest(lines.points
 std::size_t digest(const SurfaceCharacter& c) {
     return bench::digest(c.geodesic_distance) ^ bench::digest(c.geodesic_distance_refined) ^ bench::digest(c.abscissa);
 }
+std::size_t digest(const Branches& b) {
+    return bench::digest(b.lines.points) ^ bench::digest(b.sections.area) ^ bench::digest(b.surface.angle);
+}
 std::size_t digest(const Solved& solved) { return digest(solved.lines); }
 
 PipelineOptions on_the_complex(PipelineOptions options) {
@@ -199,6 +202,11 @@ const NamedStage kStages[] = {
     {"characterize",
      [](benchmark::State& state, const Input&, const Model& m) {
          time_pairs(state, m, digest(m.solved.character), [&] { return characterize(m.surface, m.solved); });
+     }},
+    {"branches",
+     [](benchmark::State& state, const Input& input, const Model& m) {
+         time_pairs(state, m, digest(branches(m.surface, m.solved, input.options)),
+                    [&] { return branches(m.surface, m.solved, input.options); });
      }},
     {"whole",
      [](benchmark::State& state, const Input& input, const Model& m) {

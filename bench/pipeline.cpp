@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/branches/branches.h"
 #include "engine/characterize/characterize.h"
 #include "engine/condition/condition.h"
 #include "engine/core/text.h"
@@ -62,6 +63,11 @@ Centerlines trace(const Surface& surface, const Solved& solved, const PipelineOp
 SurfaceCharacter characterize(const Surface& surface, const Solved& solved) {
     StageContext context(Stage::kCharacterize);
     return characterize_surface(surface, solved.complex, solved.endpoints, solved.lines, context);
+}
+
+Branches branches(const Surface& surface, const Solved& solved, const PipelineOptions& options) {
+    StageContext context(Stage::kBranches);
+    return find_branches(surface, solved.lines, &solved.character, options.branches, context);
 }
 
 Solved solve(const Surface& surface, const PipelineOptions& options) {

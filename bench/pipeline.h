@@ -5,6 +5,7 @@
 
 #include "bench/inputs.h"
 #include "engine/core/arrival_field.h"
+#include "engine/core/branch_tables.h"
 #include "engine/core/centerlines.h"
 #include "engine/core/endpoints.h"
 #include "engine/core/surface.h"
@@ -31,6 +32,7 @@ Endpoints endpoints(const Surface& surface, const VoronoiComplex& complex, const
 Fields eikonal(const VoronoiComplex& complex, const Endpoints& ends);
 Centerlines trace(const Surface& surface, const Solved& solved, const PipelineOptions& options);
 SurfaceCharacter characterize(const Surface& surface, const Solved& solved);
+Branches branches(const Surface& surface, const Solved& solved, const PipelineOptions& options);
 Solved solve(const Surface& surface, const PipelineOptions& options);
 
 /// Is the answer worth timing? Every outlet has its line, every field is at the fixed point of its
