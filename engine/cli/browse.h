@@ -12,9 +12,9 @@ namespace lumenline {
 /// prints what an archive holds to standard output, or shows it in a browser.
 ///
 /// When the verb was parsed, `action` is set to the function that does it. The function returns
-/// the exit status and throws nothing: 0 done, also when the reader of the output has gone; 1 the
-/// archive is damaged or standard output cannot be written; 2 there is no such archive, model,
-/// dataset or attribute. Its one sentence goes to standard error.
+/// the exit status (engine/cli/run.h) and throws nothing: kDone, also when the reader of the output has
+/// gone; kModelFailed where the archive is damaged or the output cannot be written; kUsage where there is
+/// no such archive, model, dataset, attribute or column. Its one sentence goes to standard error.
 ///
 /// Ids and paths may be spelled like a verb as long as `app.require_subcommand(1)` is set.
 /// `action` must live as long as `app`.

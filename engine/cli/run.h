@@ -11,8 +11,8 @@ namespace lumenline {
 /// Exit status of the program, as documented in README and --help.
 enum ExitStatus : int {
     kDone = 0,         ///< all models ok or warning
-    kModelFailed = 1,  ///< at least one model failed, the rest is complete
-    kUsage = 2,        ///< usage or configuration error; nothing was computed
+    kModelFailed = 1,  ///< at least one model failed, the rest is complete; an archive is damaged
+    kUsage = 2,        ///< usage or configuration error, or no such name in an archive; nothing was computed
     kStopped = 3,      ///< interrupted
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -63,7 +64,13 @@ std::string table_number(double value) {
     return fmt::format("{:.{}f}", value, std::max(0, kSignificantDigits - before_point));
 }
 
-void print_models(std::ostream& out, const std::vector<ModelSummary>& models) {
+bool is_printed_column(std::string_view name) {
+    constexpr std::array kNames{"id", "status", "inlets", "outlets", "sites", "lines", "centerlines",
+                                "length", "radius_min", "radius_mean", "radius_max", "seconds"};
+    return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
+void print_models(std::ostream& out, const std::vector<ModelSummary>& models, const std::vector<MoreColumn>& more) {
     using enum TextTable::Align;
     const std::string unit = common_unit(models);
     TextTable table;
@@ -73,12 +80,17 @@ void print_models(std::ostream& out, const std::vector<ModelSummary>& models) {
     for (const char* heading : {"length", "radius_min", "radius_mean", "radius_max"})
         table.add_column(heading + unit, kRight);
     table.add_column("seconds", kRight);
+    for (const MoreColumn& column : more) table.add_column(column.heading, column.is_number ? kRight : kLeft);
+    std::size_t row = 0;
     for (const ModelSummary& m : models) {
         const auto count = [](std::size_t n) { return n == 0 ? std::string("-") : std::to_string(n); };
         const auto length = [&](double value) { return m.centerlines == 0 ? std::string("-") : table_number(value); };
-        table.add_row({m.identity.id, std::string(status_name(m.status)), count(m.inlets), count(m.outlets),
+        std::vector<std::string> cells{m.identity.id, std::string(status_name(m.status)), count(m.inlets), count(m.outlets),
                        count(m.sites), count(m.centerlines), length(m.length), length(m.radius_min),
-                       length(m.radius_mean), length(m.radius_max), table_number(m.seconds)});
+                       length(m.radius_mean), length(m.radius_max), table_number(m.seconds)};
+        for (const MoreColumn& column : more) cells.push_back(column.cells.at(row));
+        table.add_row(cells);
+        ++row;
     }
     table.print(out);
 }

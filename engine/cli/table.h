@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/model_record.h"
@@ -28,8 +29,18 @@ private:
 /// `value` with four significant digits, without an exponent between 1e-4 and 1e9; "-" for NaN.
 std::string table_number(double value);
 
-/// Writes one row per model: id, status, endpoints, sites, lines, their length and radii, seconds;
-/// "-" for what a model does not have. Headings name the unit if all models share one.
-void print_models(std::ostream& out, const std::vector<ModelSummary>& models);
+/// A column to print beside those of `print_models`, one cell per model.
+struct MoreColumn {
+    std::string heading;
+    bool is_number = false;
+    std::vector<std::string> cells;
+};
+
+/// Writes one row per model: id, status, endpoints, sites, lines, their length and radii, seconds, and what is asked for
+/// beside; "-" for what a model does not have. Headings name the unit if all models share one.
+void print_models(std::ostream& out, const std::vector<ModelSummary>& models, const std::vector<MoreColumn>& more = {});
+
+/// Is it a column that `print_models` has of its own?
+bool is_printed_column(std::string_view name);
 
 }  // namespace lumenline

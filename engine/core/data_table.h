@@ -13,6 +13,7 @@ struct DataColumn {
     std::string name, units, description;
     bool is_measure = false;  ///< holds quantities, not counts, indices or names
     std::variant<std::vector<double>, std::vector<std::string>> values;  ///< NaN and empty text = no value
+    bool is_whole = false;  ///< its numbers are counts or indices
 
     [[nodiscard]] bool is_number() const { return values.index() == 0; }
     [[nodiscard]] const std::vector<double>& numbers() const { return std::get<0>(values); }

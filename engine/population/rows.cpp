@@ -57,6 +57,16 @@ Condition parse(const DataTable& table, const std::string& text) {
     return condition;
 }
 
+std::vector<Condition> parse_all(const DataTable& table, const std::vector<std::string>& texts) {
+    std::vector<Condition> conditions;
+    for (const std::string& text : texts) conditions.push_back(parse(table, text));
+    return conditions;
+}
+
+bool all_hold(const std::vector<Condition>& conditions, std::size_t row) {
+    return std::all_of(conditions.begin(), conditions.end(), [row](const Condition& c) { return c.holds(row); });
+}
+
 }  // namespace
 
 std::string Coverage::reasons() const {
@@ -97,8 +107,7 @@ const DataColumn& numbers_of(const DataTable& table, std::string_view name) {
 }
 
 std::vector<std::size_t> select_rows(const DataTable& table, const StudyOptions& options, Coverage& coverage) {
-    std::vector<Condition> conditions;
-    for (const std::string& text : options.where) conditions.push_back(parse(table, text));
+    const std::vector<Condition> conditions = parse_all(table, options.where);
     const DataColumn* const status = table.find("status");
     const DataColumn* const rating = table.find("rating");
     std::vector<std::size_t> rows;
@@ -108,13 +117,27 @@ std::vector<std::size_t> select_rows(const DataTable& table, const StudyOptions&
             leave_out(coverage, "failed");
         else if (rating != nullptr && cell_text(*rating, i) == "bad")
             leave_out(coverage, "rated bad");
-        else if (!std::all_of(conditions.begin(), conditions.end(), [i](const Condition& c) { return c.holds(i); }))
+        else if (!all_hold(conditions, i))
             leave_out(coverage, "outside of the conditions");
         else
             rows.push_back(i);
     }
     coverage.rows_used = rows.size();
     return rows;
+}
+
+std::vector<std::size_t> rows_where(const DataTable& table, const std::vector<std::string>& conditions) {
+    const std::vector<Condition> parsed = parse_all(table, conditions);
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < table.rows; ++i)
+        if (all_hold(parsed, i)) rows.push_back(i);
+    return rows;
+}
+
+std::vector<std::string> condition_columns(const DataTable& table, const std::vector<std::string>& conditions) {
+    std::vector<std::string> columns;
+    for (const Condition& condition : parse_all(table, conditions)) columns.push_back(condition.column->name);
+    return columns;
 }
 
 bool natural_less(std::string_view a, std::string_view b) {

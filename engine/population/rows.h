@@ -22,6 +22,12 @@ const DataColumn& numbers_of(const DataTable& table, std::string_view name);
 /// @param coverage  counts the rest, by reason
 std::vector<std::size_t> select_rows(const DataTable& table, const StudyOptions& options, Coverage& coverage);
 
+/// Rows that meet all conditions ("COLUMN OP VALUE"), whatever became of their models. @throws StudyError
+std::vector<std::size_t> rows_where(const DataTable& table, const std::vector<std::string>& conditions);
+
+/// The columns that conditions name. @throws StudyError
+std::vector<std::string> condition_columns(const DataTable& table, const std::vector<std::string>& conditions);
+
 /// Counts `rows` for a reason; reasons keep the order in which they first came.
 void leave_out(Coverage& coverage, const std::string& reason, std::size_t rows = 1);
 

@@ -22,6 +22,7 @@ DataColumn read_column(const ArchiveFile& file, const ArchiveNode& node, std::st
         return column;
     }
     column.values = file.numbers(node.path);
+    column.is_whole = node.type.starts_with("int") || node.type.starts_with("uint");
     column.is_measure = node.type.starts_with("float") && node.description != names::kCovariateDescription;
     return column;
 }
@@ -47,7 +48,7 @@ DataTable read_own(const ArchiveFile& file, const std::string& name) {
 
 /// Values of `column` at `rows`; none where a row is past its end.
 DataColumn at_rows(const DataColumn& column, const std::vector<std::size_t>& rows) {
-    DataColumn result{column.name, column.units, column.description, false, {}};
+    DataColumn result{column.name, column.units, column.description, false, {}, column.is_whole};
     if (column.is_number()) {
         std::vector<double> values;
         for (const std::size_t r : rows)

@@ -43,7 +43,8 @@ std::vector<std::string> all_texts(const std::vector<T>& values, Text text) {
 }  // namespace
 
 Values Values::dataset(hid_t file, const std::string& path) {
-    return {Handle(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path), false, path};
+    const std::string name = path.substr(path.starts_with("./") ? 1 : 0);
+    return {Handle(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, name), false, name};
 }
 
 Values Values::attribute(hid_t file, const std::string& object, const std::string& name) {
@@ -114,6 +115,15 @@ std::vector<T> Values::read_as(hid_t memory_type, std::size_t first, std::size_t
 std::vector<double> Values::numbers(std::size_t first, std::size_t count) const {
     if (is_text() || type_ == "other") throw Error(name_ + ": holds no numbers but " + type_);
     return read_as<double>(H5T_NATIVE_DOUBLE, first, count);
+}
+
+std::string Values::bytes(std::size_t first, std::size_t count) const {
+    if (is_text() || type_ == "other") throw Error(name_ + ": holds no numbers but " + type_);
+    const Handle ordered(H5Tcopy(stored_type_.get()), H5Tclose, name_);
+    checked(H5Tset_order(ordered.get(), H5T_ORDER_LE), name_);
+    std::string block(count * row_length() * H5Tget_size(ordered.get()), '\0');
+    if (!block.empty()) read(ordered.get(), first, count, block.data());
+    return block;
 }
 
 std::vector<std::string> Values::strings(std::size_t first, std::size_t count) const {

@@ -33,6 +33,8 @@ public:
     [[nodiscard]] std::vector<double> numbers(std::size_t first, std::size_t count) const;
     /// Values as text: text as it stands, numbers as the shortest text that reads back the same.
     [[nodiscard]] std::vector<std::string> texts(std::size_t first, std::size_t count) const;
+    /// The same in the bytes of the file's type, little-endian, one after the other. Numbers only.
+    [[nodiscard]] std::string bytes(std::size_t first, std::size_t count) const;
 
 private:
     Values(Handle object, bool is_attribute, std::string name);

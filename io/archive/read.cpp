@@ -9,6 +9,7 @@
 
 #include "io/archive/dataset.h"
 #include "io/archive/names.h"
+#include "io/archive/npy.h"
 #include "io/archive/utf8.h"
 
 namespace lumenline {
@@ -93,6 +94,21 @@ struct ArchiveFile::Impl {
         }
     }
 
+    /// Is there a dataset of that path in this file? What a link to another file leads to is none of it.
+    [[nodiscard]] bool is_dataset(const std::string& path) const {
+        for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+            const std::string part = from_root(path.substr(0, end));
+            H5L_info_t link{};
+            if (H5Lexists(root.get(), part.c_str(), H5P_DEFAULT) <= 0 ||
+                H5Lget_info(root.get(), part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+                return false;
+            if (end == std::string::npos) break;
+        }
+        H5O_info_t info{};
+        return H5Oget_info_by_name2(root.get(), from_root(path).c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+               info.type == H5O_TYPE_DATASET;
+    }
+
     [[nodiscard]] Values open(const std::string& dataset) const {
         Values values = Values::dataset(root.get(), from_root(dataset));
         values.require_within(bytes);
@@ -130,7 +146,8 @@ struct ArchiveFile::Impl {
     }
 
     void refuse_path(const std::string& wanted) const;
-    void print_attribute(const std::string& object, const std::string& name, std::ostream& out) const;
+    [[nodiscard]] Values open_attribute(const std::string& object, const std::string& name) const;
+    [[nodiscard]] Values find(const std::string& path_or_attribute) const;
 };
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
@@ -251,7 +268,7 @@ void ArchiveFile::Impl::refuse_path(const std::string& wanted) const {
                       nearest_names(wanted, datasets));
 }
 
-void ArchiveFile::Impl::print_attribute(const std::string& object, const std::string& name, std::ostream& out) const {
+Values ArchiveFile::Impl::open_attribute(const std::string& object, const std::string& name) const {
     const auto all = objects();
     if (std::none_of(all.begin(), all.end(), [&](const auto& o) { return o.first == object; })) {
         std::vector<std::string> known;
@@ -264,20 +281,23 @@ void ArchiveFile::Impl::print_attribute(const std::string& object, const std::st
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw UnknownName("'" + printable(object) + "' of '" + path.string() + "' has no attribute '" +
                           printable(name) + "'" + nearest_names(name, known));
-    print_values(Values::attribute(root.get(), from_root(object), name), out);
+    return Values::attribute(root.get(), from_root(object), name);
+}
+
+Values ArchiveFile::Impl::find(const std::string& path_or_attribute) const {
+    const std::string full = path_or_attribute.starts_with('/') ? path_or_attribute : "/" + path_or_attribute;
+    if (const std::size_t mark = full.rfind('@'); mark != std::string::npos)
+        return open_attribute(full.substr(0, mark), full.substr(mark + 1));
+    if (full == "/" || full.ends_with('/') || !is_dataset(full)) refuse_path(full);
+    return open(full);
 }
 
 void ArchiveFile::print(const std::string& path_or_attribute, std::ostream& out) const {
-    impl_->guarded([&] {
-        const std::string full = path_or_attribute.starts_with('/') ? path_or_attribute : "/" + path_or_attribute;
-        if (const std::size_t mark = full.rfind('@'); mark != std::string::npos) {
-            impl_->print_attribute(full.substr(0, mark), full.substr(mark + 1), out);
-            return;
-        }
-        const auto all = impl_->objects();
-        if (std::find(all.begin(), all.end(), std::pair(full, H5O_TYPE_DATASET)) == all.end()) impl_->refuse_path(full);
-        print_values(impl_->open(full), out);
-    });
+    impl_->guarded([&] { print_values(impl_->find(path_or_attribute), out); });
+}
+
+void ArchiveFile::save_npy(const std::string& path_or_attribute, std::ostream& out) const {
+    impl_->guarded([&] { hdf::write_npy(impl_->find(path_or_attribute), out); });
 }
 
 }  // namespace lumenline

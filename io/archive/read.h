@@ -66,6 +66,8 @@ public:
     /// control characters in text as '?'. Large datasets are read in blocks.
     /// @throws UnknownName with the nearest names if there is no such thing
     void print(const std::string& path_or_attribute, std::ostream& out) const;
+    /// Writes the same in numpy's .npy format, version 1.0: numbers in their own type, text as `<U`.
+    void save_npy(const std::string& path_or_attribute, std::ostream& out) const;
 
 private:
     struct Impl;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -37,11 +38,14 @@ std::string quoted(const std::string& text, const Style& style) {
     return result + "\"";
 }
 
-void write_rows(const DataTable& table, const Style& style, std::ostream& out) {
+}  // namespace
+
+void write_rows(const DataTable& table, std::span<const std::size_t> rows, TableFormat format, std::ostream& out) {
+    const Style style = style_of(format);
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         out << (c > 0 ? style.separator : "") << quoted(table.columns[c].name, style);
     out << style.line_end;
-    for (std::size_t row = 0; row < table.rows; ++row) {
+    for (const std::size_t row : rows) {
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
             const DataColumn& column = table.columns[c];
             out << (c > 0 ? style.separator : "");
@@ -55,6 +59,8 @@ void write_rows(const DataTable& table, const Style& style, std::ostream& out) {
         out << style.line_end;
     }
 }
+
+namespace {
 
 /// What the index says of the columns below /tables: type and source by path.
 class ColumnFacts {
@@ -103,7 +109,9 @@ std::vector<std::filesystem::path> export_tables(const std::filesystem::path& ar
         const DataTable table = read_data_table(archive, name);
         for (const DataColumn& c : table.columns) dictionary.push_back(facts.entry(name, c));
         written.push_back(directory / (name + (format == TableFormat::kCsv ? ".csv" : ".tsv")));
-        write_file(written.back(), [&](std::ostream& out) { write_rows(table, style_of(format), out); });
+        std::vector<std::size_t> rows(table.rows);
+        std::iota(rows.begin(), rows.end(), std::size_t{0});
+        write_file(written.back(), [&](std::ostream& out) { write_rows(table, rows, format, out); });
     }
     written.push_back(directory / "dictionary.json");
     write_file(written.back(), [&](std::ostream& out) {

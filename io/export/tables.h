@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <iosfwd>
+#include <span>
 #include <vector>
 
+#include "engine/core/data_table.h"
 #include "io/archive/errors.h"
 
 namespace lumenline {
@@ -10,9 +14,11 @@ namespace lumenline {
 /// RFC 4180 (.csv: commas, missing values empty), or as BIDS has it (.tsv: tabs, missing values n/a).
 enum class TableFormat { kCsv, kTsv };
 
-/// Writes every table of an archive's index as `<table>.csv` or `<table>.tsv` (a heading; quotes doubled; numbers as
-/// decimals that read back as the same), and `dictionary.json`: table, column, type, unit, definition and source of each
-/// column, as /dictionary of the index has them.
+/// Writes rows of a table: a heading, quotes doubled, numbers as decimals that read back as the same.
+void write_rows(const DataTable& table, std::span<const std::size_t> rows, TableFormat format, std::ostream& out);
+
+/// Writes every table of an archive's index as `<table>.csv` or `<table>.tsv`, and `dictionary.json`: table, column, type,
+/// unit, definition and source of each column, as /dictionary of the index has them.
 /// @returns the files written
 /// @throws ArchiveError, UnknownName as read_data_table; std::system_error
 std::vector<std::filesystem::path> export_tables(const std::filesystem::path& archive,

@@ -5,9 +5,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "engine/cli/sparkline.h"
 #include "engine/cli/table.h"
+#include "engine/core/branch_tables.h"
 #include "io/archive/index.h"
 #include "io/archive/model_file.h"
 #include "io/archive/utf8.h"
@@ -94,6 +99,108 @@ TEST(Browse, GetPrintsFullPrecision) {
     EXPECT_EQ(get("@status").out, "warning\n");
     EXPECT_EQ(get("/surface/points@units").out, "mm\n");
     EXPECT_EQ(get("/VTKHDF@Version").out, "1\n0\n");
+}
+
+/// Ids of the models that `list` prints, in its order.
+std::string listed(const std::string& archive, std::vector<std::string> options) {
+    options.insert(options.begin(), {"browse", archive, "list"});
+    const Printed printed = run(options);
+    EXPECT_EQ(printed.status, 0) << printed.err;
+    std::istringstream lines(printed.out);
+    std::string ids, line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) ids += line.substr(0, line.find(' ')) + " ";
+    return ids;
+}
+
+std::string ranked_archive() {
+    std::vector<ModelRecord> records{sample_record("m2"), sample_record("m10"), failed_record("m1")};
+    auto lines = std::make_shared<Centerlines>(*records[1].centerlines);
+    for (double& radius : lines->radius) radius *= 2;
+    records[1].centerlines = lines;
+    return archive_of(records, "browse_ranked");
+}
+
+TEST(Browse, ListSortsByAnyColumnWithMissingValuesLast) {
+    const std::string archive = ranked_archive();
+    EXPECT_EQ(listed(archive, {"--sort", "radius_min"}), "m2 m10 m1 ");
+    EXPECT_EQ(listed(archive, {"--sort", "radius_min", "--desc"}), "m10 m2 m1 ");
+    EXPECT_EQ(listed(archive, {"--sort", "id"}), "m1 m2 m10 ") << "numbers within names by value";
+    EXPECT_EQ(listed(archive, {"--sort", "seconds"}), "m2 m10 m1 ") << "equal ones keep their order";
+    const Printed printed = run({"browse", archive, "list", "--sort", "age"});
+    EXPECT_TRUE(contains(printed.out, "seconds    age\n")) << printed.out;
+}
+
+TEST(Browse, ListSelectsByTheWordsOfStats) {
+    const std::string archive = ranked_archive();
+    EXPECT_EQ(listed(archive, {"--where", "status=failed"}), "m1 ") << "failed models can be asked for";
+    EXPECT_EQ(listed(archive, {"--where", "radius_min > 0.5"}), "m10 ");
+    EXPECT_EQ(listed(archive, {"--where", "lines>=1", "--where", "id!=m2"}), "m10 ");
+    for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+             {"--sort", "radius"}, {"--where", "radius<1"}, {"--where", "radius_min"}, {"--where", "radius_min<x"}}) {
+        std::vector<std::string> arguments{"browse", archive, "list"};
+        arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+        const Printed printed = run(arguments);
+        EXPECT_EQ(printed.status, 2) << wrong[1];
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+    EXPECT_THROW(run({"browse", archive, "list", "--desc"}), CLI::ParseError);
+    EXPECT_THROW(run({"browse", archive, "list", "--json", "--csv"}), CLI::ParseError);
+}
+
+TEST(Browse, ListGivesEveryColumnToOtherPrograms) {
+    const std::string archive = ranked_archive();
+    const auto models = nlohmann::json::parse(run({"browse", archive, "list", "--json", "--sort", "id"}).out);
+    ASSERT_EQ(models.size(), 3U);
+    EXPECT_EQ(models[0].at("id"), "m1");
+    EXPECT_TRUE(models[0].at("radius_min").is_null());
+    EXPECT_EQ(models[1].at("sites"), 5);
+    EXPECT_TRUE(models[1].at("sites").is_number_integer());
+    EXPECT_DOUBLE_EQ(models[1].at("radius_min").get<double>(), 0.45);
+    EXPECT_EQ(models[1].at("seconds"), 2.8);
+    const Printed csv = run({"browse", archive, "list", "--csv", "--where", "id=m2"});
+    EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 2) << csv.out;
+    EXPECT_TRUE(csv.out.starts_with("age,centerlines,")) << csv.out;
+    EXPECT_EQ(run({"browse", archive + "/models/m2.hdf", "list", "--json"}).status, 2) << "a model has no tables";
+}
+
+TEST(Browse, ShowDrawsTheRadiusAlongEachBranch) {
+    ModelRecord record = sample_record("a");
+    auto branches = std::make_shared<Branches>(*record.branches);
+    for (std::size_t k = 0; k < 9; ++k) branches->points.branch[k] = BranchId(k < 5 ? 0 : 2);
+    branches->points.branch_abscissa = {0, 1, 2, 3, 4, 0, 1, 2, 3};
+    record.branches = branches;
+    const std::string archive = archive_of({record}, "browse_spark");
+    const std::string out = run({"browse", archive, "show", "a"}).out;
+    EXPECT_TRUE(contains(out, "     0   4.000      0.4500       1.021         0.000  (0, 0, 0)")) << out;
+    EXPECT_TRUE(contains(out, "     1       -           -           -             -  -")) << out;
+}
+
+TEST(Sparkline, HeightsAreSharesOfTheLargest) {
+    const std::vector<double> at{0, 1, 2, 3, 4, 5, 6, 7}, values{8, 7, 6, 5, 4, 3, 2, 1};
+    EXPECT_EQ(sparkline(at, values, 8, SparkSet::kAscii), "##*+=:-.");
+    EXPECT_EQ(sparkline(at, values, 4, SparkSet::kBlocks), "\u2588\u2586\u2584\u2582");
+    EXPECT_EQ(sparkline(at, values, 2, SparkSet::kAscii), "+.") << "the least value of a part counts";
+    const std::vector<double> two{0, 1}, level{3, 3};
+    EXPECT_EQ(sparkline(two, level, 5, SparkSet::kAscii), "#####") << "parts without a value have the one before";
+    EXPECT_EQ(sparkline({}, {}, 5, SparkSet::kAscii), "");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(sparkline(two, std::vector<double>{nan, nan}, 5, SparkSet::kAscii), "");
+    EXPECT_EQ(sparkline(two, std::vector<double>{0, 0}, 5, SparkSet::kAscii), "") << "there is no height to share";
+}
+
+TEST(Sparkline, LocaleDecidesOnTheCharacters) {
+    const auto set_in = [](const char* locale) {
+        const char* before = std::getenv("LC_ALL");
+        const std::string saved = before == nullptr ? "" : before;
+        ::setenv("LC_ALL", locale, 1);
+        const SparkSet set = spark_set();
+        before == nullptr ? ::unsetenv("LC_ALL") : ::setenv("LC_ALL", saved.c_str(), 1);
+        return set;
+    };
+    EXPECT_EQ(set_in("C"), SparkSet::kAscii);
+    EXPECT_EQ(set_in("C.UTF-8"), SparkSet::kBlocks);
+    EXPECT_EQ(set_in("of no country"), SparkSet::kAscii);
 }
 
 TEST(Browse, TreeNamesGroupsAndDatasets) {

@@ -205,6 +205,7 @@ std::shared_ptr<const Branches> sample_branches() {
     fill.all(3, b.lines.own_from, b.lines.own_to);
     fill.all(9, b.points.branch, b.points.junction, b.points.branch_abscissa, b.points.curvature, b.points.torsion,
              b.points.tangent, b.points.frame);
+    for (std::size_t k = 0; k < 9; ++k) b.points.branch[k] = BranchId(k % 3);
     fill.all(5, b.surface.branch, b.surface.junction, b.surface.longitudinal, b.surface.relative, b.surface.angle);
     b.surface.branch.back() = BranchId();
     fill_tables(b, fill);
