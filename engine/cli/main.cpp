@@ -14,6 +14,7 @@
 #include "engine/cli/stats.h"
 #include "engine/cli/status.h"
 #include "engine/cli/submit.h"
+#include "engine/cli/validate_archive.h"
 #include "engine/core/version.h"
 #include "io/archive/lease.h"
 
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     add_stats(app, action);
     add_pack(app, action);
     add_export(app, action);
+    add_validate_archive(app, action);
     add_phantom(app, action);
     add_worker(app, action);
     try {

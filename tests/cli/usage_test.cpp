@@ -6,7 +6,7 @@
 namespace lumenline::cli_test {
 namespace {
 
-constexpr const char* kVerbs[] = {"run", "status", "merge", "submit", "validate", "model", "browse", "phantom"};
+constexpr const char* kVerbs[] = {"run", "status", "merge", "submit", "validate", "model", "browse", "phantom", "validate-archive"};
 
 TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
     const Finished whole = run_lumenline({"--help"}, fresh_folder());
@@ -78,6 +78,8 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"browse", "archive", "serve", "--port", "http"}, "--port"},
         {{"browse", "archive", "serve", "--port", "65536"}, "--port"},
         {{"browse", "archive", "page"}, "--output"},
+        {{"browse", "archive", "list", "--json", "--csv"}, "--json"},
+        {{"validate-archive"}, "ARCHIVE"},
         {{"phantom"}, "KIND"},
         {{"phantom", "cylinder"}, "--output"},
         {{"phantom", "torus", "-o", "a.ply", "--voxel", "0"}, "--voxel"},
