@@ -50,13 +50,13 @@ const Row kRows[] = {
     {names::kSiteAbscissa, "N", kScalar, kCharacter, or_none(not_negative())},
     {names::kZone, "N", kByte, kCharacter, code(2)},
 
-    {names::kStatisticsGeodesic, "4", kDouble, kCharacter, or_none(not_negative())},
-    {names::kStatisticsEuclidean, "4", kDouble, kCharacter, or_none(not_negative())},
-    {names::kStatisticsTangency, "4", kDouble, kCharacter, or_none(share())},
-    {names::kWallSites, "", kInt, kCharacter, count()},
-    {names::kUnreachedSites, "", kInt, kCharacter, count()},
-    {names::kNotRefined, "", kInt, kCharacter, count()},
-    {names::kJumps, "3", kInt, kCharacter, count()},
+    {names::kStatisticsGeodesic, "4", kDouble, kStatistics, or_none(not_negative())},
+    {names::kStatisticsEuclidean, "4", kDouble, kStatistics, or_none(not_negative())},
+    {names::kStatisticsTangency, "4", kDouble, kStatistics, or_none(share())},
+    {names::kWallSites, "", kInt, kStatistics, count()},
+    {names::kUnreachedSites, "", kInt, kStatistics, count()},
+    {names::kNotRefined, "", kInt, kStatistics, count()},
+    {names::kJumps, "3", kInt, kStatistics, count()},
 
     {names::kEndpointPoint, "E, 3", kDouble, kEndpoints, finite()},
     {names::kEndpointNormal, "E, 3", kDouble, kEndpoints, unit_or_zero()},
@@ -72,7 +72,7 @@ const Row kRows[] = {
     {names::kPolygonVertices, "I", kInt, kVoronoi, index('V')},
     {names::kPolygonSites, "P, 2", kInt, kVoronoi, index_or_none('N')},
     {names::kArrivalTime, "S, V", kScalar, kFronts, or_unreached(not_negative())},
-    {names::kCenterlineDistance, "V", kScalar, kCharacter, or_unreached(not_negative())},
+    {names::kCenterlineDistance, "V", kScalar, kVertexCharacter, or_unreached(not_negative())},
     {names::kSources, "S", kInt, kFronts, index('E')},
     {names::kReached, "S", kInt, kFronts, count()},
     {names::kResidual, "S", kDouble, kFronts, not_negative()},
@@ -166,8 +166,11 @@ const std::vector<SpecifiedAttribute> kAttributes{
     {"/", "structure", "string"}, {"/", "group", "string"}, {"/", "status", "string"},
     {"/", "length_unit", "string"}, {"/", "coordinate_system", "string"}, {"/", "source_file", "string"},
     {"/", "source_sha256", "string"}, {"/", "inputs_sha256", "string"},
-    {"/", "failure_stage", "string", false}, {"/", "failure_code", "string", false},
-    {"/", "failure_sentence", "string", false}, {"/", "failure_signal", "int32", false},
+    {"/", "fields", "string"},
+    {"/", names::kStatedSites, "int32", Presence::kUnlessFailed, 'N'}, {"/", names::kStatedTriangles, "int32", Presence::kUnlessFailed, 'M'},
+    {"/", names::kStatedVertices, "int32", Presence::kUnlessFailed, 'V'}, {"/", names::kStatedPolygons, "int32", Presence::kUnlessFailed, 'P'},
+    {"/", "failure_stage", "string", Presence::kIfFailed}, {"/", "failure_code", "string", Presence::kIfFailed},
+    {"/", "failure_sentence", "string", Presence::kIfFailed}, {"/", "failure_signal", "int32", Presence::kIfFailed},
     {"/surface", "genus", "int32"}, {"/surface", "component_count", "int32"}, {"/surface", "diagonal", "float64"},
     {"/surface", "median_edge", "float64"}, {"/surface", "coordinate_rounding", "float64"},
     {"/VTKHDF", "Version", "int64"}, {"/VTKHDF", "Type", "string"},
@@ -175,7 +178,7 @@ const std::vector<SpecifiedAttribute> kAttributes{
 // clang-format on
 
 /// Lengths of the tables of a model, in the order of branch_tables().
-constexpr const char kTableRows[] = "BXRBBW";
+constexpr const char kTableRows[] = "BXURBBW";
 
 std::vector<Specified> made() {
     std::vector<Specified> all;

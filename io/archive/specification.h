@@ -26,17 +26,19 @@ struct Rule {
 
 /// Datasets that are written together: where one of them is, all are.
 enum class Part {
-    kAlways,        ///< in each file
-    kSurface,       ///< in each model that did not fail
-    kPoles,         ///< with kSurface and kVoronoi
-    kVoronoi,       ///< in each model that did not fail
-    kEndpoints,     ///< in each model that did not fail
-    kFronts,        ///< in each model that did not fail
-    kLines,         ///< in each model that did not fail
-    kCharacter,     ///< where it was asked for
-    kBranches,      ///< where it was asked for
-    kSiteBranches,  ///< with kCharacter and kBranches
-    kVtk,           ///< with kSurface
+    kAlways,           ///< in each file
+    kSurface,          ///< in each model that did not fail, unless its fields are the lines alone
+    kPoles,            ///< with kSurface and kVoronoi
+    kVoronoi,          ///< in each model that did not fail, if its fields are all
+    kEndpoints,        ///< in each model that did not fail
+    kFronts,           ///< as kVoronoi
+    kLines,            ///< in each model that did not fail
+    kStatistics,       ///< where it was asked for
+    kCharacter,        ///< with kStatistics and kSurface
+    kVertexCharacter,  ///< with kStatistics and kVoronoi
+    kBranches,         ///< where it was asked for
+    kSiteBranches,     ///< with kCharacter and kBranches
+    kVtk,              ///< with kSurface, and with kLines
 };
 
 /// A dataset as io/ARCHIVE.md has it.
@@ -49,12 +51,15 @@ struct Specified {
     Rule rule;
 };
 
-/// An attribute as io/ARCHIVE.md has it: of the root ("/") always, but for failures; of a group where that is.
+enum class Presence { kAlways, kIfFailed, kUnlessFailed };
+
+/// An attribute as io/ARCHIVE.md has it. One of a group is there where the group is.
 struct SpecifiedAttribute {
     const char* object;
     const char* name;
     const char* type;
-    bool always = true;
+    Presence presence = Presence::kAlways;
+    char counts = '\0';  ///< it is that length of io/ARCHIVE.md
 };
 
 /// The specification of a model file, and of an index, in the order of io/ARCHIVE.md. A covariate's column is

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "engine/core/branch_tables.h"
+#include "engine/core/index_tables.h"
 #include "io/archive/index_names.h"
 #include "io/archive/specification.h"
 
@@ -25,6 +26,14 @@ constexpr ColumnRule kColumnRules[] = {
     {"bifurcations", "parent", index_or_none('B')},
     {"bifurcations", "child_*", index_or_none('B')},
     {"bifurcations", "junction_id", index('X')},
+    {"bifurcation_children", "junction_id", index('X')},
+    {"bifurcation_children", "parent", index_or_none('B')},
+    {"bifurcation_children", "child", index('B')},
+    {"bifurcation_children", "at_last_node", code(1)},
+    {"bifurcation_children", "in_plane", or_none(within(-360, 360))},
+    {"bifurcation_children", "out_of_plane", or_none(within(-90, 90))},
+    {"", "branch_label_confidence", or_none(share())},
+    {"sections", "abscissa_relative", or_none(share())},
     {"bifurcations", "node", index('G')},
     {"branches", "first_node", index('G')},
     {"branches", "last_node", index('G')},
@@ -117,6 +126,12 @@ const Row kRest[] = {
     {names::kFailedSentence, "F", kText, text()},
     {names::kConfigGiven, "", kText, text()},
     {names::kConfigResolved, "", kText, text()},
+    {names::kDictionaryTable, "K", kText, text()},
+    {names::kDictionaryColumn, "K", kText, text()},
+    {names::kDictionaryType, "K", kText, words("float64|int32|string")},
+    {names::kDictionaryUnit, "K", kText, text()},
+    {names::kDictionaryDefinition, "K", kText, text()},
+    {names::kDictionarySource, "K", kText, text()},
     {names::kSecondsId, "A", kText, text()},
     {names::kSeconds, "A", kDouble, not_negative()},
     {names::kFileBytes, "A", kDouble, or_none(not_negative())},
@@ -125,7 +140,7 @@ const Row kRest[] = {
 // clang-format on
 
 /// Lengths of the tables of an index, in the order of index_tables().
-constexpr const char kTableRows[] = "BXRYZO";
+constexpr const char kTableRows[] = "BXURYZO";
 
 void add(std::vector<Specified>& all, const Row& row) {
     all.push_back({row.field.path, row.shape, row.type, row.field.units, Part::kAlways, row.rule});

@@ -79,10 +79,16 @@ std::set<Part> required_parts(const Inspection& inspection, const Nodes& nodes, 
     std::set<Part> there{kAlways}, parts;
     for (const Specified& entry : inspection.specification())
         if (nodes.contains(entry.path)) there.insert(entry.part);
-    if (!failed) there.insert({kSurface, kVoronoi, kEndpoints, kFronts, kLines});
-    for (const Part part : {kAlways, kSurface, kVoronoi, kEndpoints, kFronts, kLines, kCharacter, kBranches})
+    const std::string fields = inspection.file().attribute("/", "fields").value_or("all");
+    if (!failed) there.insert({kEndpoints, kLines});
+    if (!failed && fields != "lines") there.insert(kSurface);
+    if (!failed && fields == "all") there.insert({kVoronoi, kFronts});
+    for (const Part part : {kAlways, kSurface, kVoronoi, kEndpoints, kFronts, kLines, kStatistics, kBranches})
         if (there.contains(part)) parts.insert(part);
-    if (parts.contains(kSurface)) parts.insert(kVtk);
+    if (there.contains(kCharacter) && !parts.contains(kStatistics)) parts.insert(kStatistics);
+    if (parts.contains(kSurface) || parts.contains(kLines)) parts.insert(kVtk);
+    if (parts.contains(kStatistics) && parts.contains(kSurface)) parts.insert(kCharacter);
+    if (parts.contains(kStatistics) && parts.contains(kVoronoi)) parts.insert(kVertexCharacter);
     if (parts.contains(kSurface) && parts.contains(kVoronoi)) parts.insert(kPoles);
     if (parts.contains(kCharacter) && parts.contains(kBranches)) parts.insert(kSiteBranches);
     return parts;
@@ -95,18 +101,24 @@ void check_attributes(Inspection& inspection, const Nodes& nodes, const std::vec
         if (!is_root && !nodes.contains(entry.object)) continue;
         const std::string place = std::string(entry.object) + "@" + entry.name;
         const std::optional<std::string> text = inspection.file().attribute(entry.object, entry.name);
-        const bool is_failure = !entry.always, is_signal = std::string_view(entry.name) == "failure_signal";
+        const bool is_signal = std::string_view(entry.name) == "failure_signal";
         if (!text) {
-            if (!is_failure || (failed && !is_signal)) inspection.report(place, "is missing");
+            if (entry.presence == Presence::kAlways ||
+                (failed == (entry.presence == Presence::kIfFailed) && !is_signal))
+                inspection.report(place, "is missing");
             continue;
         }
-        if (is_failure && !failed) inspection.report(place, "is there, but the model did not fail");
+        if (entry.presence == Presence::kIfFailed && !failed)
+            inspection.report(place, "is there, but the model did not fail");
         if (std::string_view(entry.type) == "string") continue;
         double number = 0;
         const auto read = std::from_chars(text->data(), text->data() + text->size(), number);
         const bool is_list = std::string_view(entry.name) == "Version";
         if (read.ec != std::errc() || (!is_list && read.ptr != text->data() + text->size()))
             inspection.report(place, "is '" + *text + "', not a number of type " + entry.type);
+        else if (const auto length = inspection.lengths.find(entry.counts);
+                 length != inspection.lengths.end() && number != static_cast<double>(length->second))
+            inspection.report(place, "is " + *text + ", but the file has " + std::to_string(length->second));
     }
 }
 
