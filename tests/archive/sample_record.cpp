@@ -271,7 +271,11 @@ std::filesystem::path sample_archive(const std::vector<ModelRecord>& records, co
 }
 
 std::filesystem::path fresh_directory(const std::string& name) {
-    std::filesystem::path directory = std::filesystem::path(::testing::TempDir()) / ("lumenline_archive_" + name);
+    // Tests run beside each other: each has its own.
+    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const std::string owner = test == nullptr ? "" : std::string(test->test_suite_name()) + "_" + test->name() + "_";
+    std::filesystem::path directory =
+        std::filesystem::path(::testing::TempDir()) / ("lumenline_archive_" + owner + name);
     std::filesystem::remove_all(directory);
     std::filesystem::create_directories(directory);
     return directory;
