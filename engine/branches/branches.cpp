@@ -1,6 +1,7 @@
 // The stage's steps in order; each is a function of its own.
 #include "engine/branches/branches.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/branches/axes.h"
@@ -34,6 +35,42 @@ void report(const Split& split, const Branches& found, StageContext& context) {
                      static_cast<double>(without));
 }
 
+std::size_t missing(const std::vector<double>& values) {
+    return static_cast<std::size_t>(
+        std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }));
+}
+
+std::vector<double> means(const std::vector<Distribution>& values) {
+    std::vector<double> result;
+    for (const Distribution& d : values) result.push_back(d.mean);
+    return result;
+}
+
+/// What is NaN for want of something, not by its definition (as the torsion of a straight vessel is).
+void report_missing(const Branches& found, StageContext& context) {
+    std::size_t total = 0;
+    std::string text;
+    const auto count = [&](const std::vector<double>& values, const char* measure, const char* why) {
+        const std::size_t rows = missing(values);
+        if (rows == 0) return;
+        total += rows;
+        text.append(text.empty() ? "" : ", ").append(measure).append(" ").append(std::to_string(rows));
+        text.append(" (").append(why).append(")");
+    };
+    const BranchTable& t = found.table;
+    count(means(t.radius), "radius", "no own part");
+    count(t.taper, "taper", "own part of fewer than two points");
+    count(means(t.area), "area", "no closed section");
+    count(means(t.curvature), "curvature", "no own part");
+    if (!found.surface.branch.empty()) count(t.volume, "volume and means over the wall", "no wall belongs to it");
+    count(found.stenoses.ecst_diameter, "ECST degree and dilation", "own part too short for a fit");
+    count(found.stenoses.nascet_diameter, "NASCET degree", "nothing distal to the narrowest place");
+    count(found.bifurcations.planarity, "planarity", "children without own part, or straight on from each other");
+    count(found.bifurcations.area_ratio, "area ratio", "a branch without own part");
+    count(found.bifurcations.murray_exponent, "Murray exponent", "a child as wide as its parent");
+    if (total > 0) context.note("measures_not_known", "not known and NaN: " + text, static_cast<double>(total));
+}
+
 }  // namespace
 
 Branches find_branches(const Surface& surface, const Centerlines& centerlines, const SurfaceCharacter* character,
@@ -58,6 +95,7 @@ Branches find_branches(const Surface& surface, const Centerlines& centerlines, c
     result.stenoses = find_stenoses(result, result.sections);
     result.dilations = find_dilations(result);
     report(split, result, context);
+    report_missing(result, context);
     return result;
 }
 

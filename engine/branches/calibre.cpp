@@ -15,7 +15,9 @@ namespace lumenline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDistal = 10;  // radii: length of the distal reference, at most
+constexpr double kDistal = 10;      // radii: length of the distal reference, at most
+constexpr double kLeastDistal = 1;  // and at least
+constexpr std::size_t kFewest = 5;  // points: a line by repeated medians passes through some of fewer
 
 /// Radii along the own part of a branch.
 struct Profile {
@@ -44,7 +46,7 @@ struct Extreme {
 Extreme find_extreme(const Profile& p, double sign) {
     Extreme e;
     const std::size_t n = p.s.size();
-    if (n < 3 || !(p.fit(p.s.front()) > 0 && p.fit(p.s.back()) > 0)) return e;
+    if (n < kFewest || !(p.fit(p.s.front()) > 0 && p.fit(p.s.back()) > 0)) return e;
     std::size_t k = 0;
     for (std::size_t i = 1; i < n; ++i)
         if (sign * p.share(i) > sign * p.share(k)) k = i;
@@ -118,11 +120,13 @@ StenosisTable find_stenoses(const BranchAxes& branches, const SectionTable& sect
         const Profile p = profile_of(branches.lines, b);
         const Extreme e = find_extreme(p, -1);
         const double distal_from = e.s + 2 * (e.to - e.s), distal_to = distal_from + kDistal * p.fit(e.s);
-        const double distal = 2 * median_within(p.s, p.radius, distal_from, distal_to);
+        // Without a stretch behind it the narrowest place would be its own reference.
+        const bool has_distal = e.to > e.s && p.s.back() - distal_from >= kLeastDistal * p.fit(e.s);
+        const double distal = has_distal ? 2 * median_within(p.s, p.radius, distal_from, distal_to) : kNaN;
         const double fitted = 2 * p.fit(e.s);
         const double area = area_at(areas[b], e.s);
         const double original = repeated_median(areas[b].s, areas[b].root)(e.s);
-        const double distal_area = median_within(areas[b].s, areas[b].area, distal_from, distal_to);
+        const double distal_area = has_distal ? median_within(areas[b].s, areas[b].area, distal_from, distal_to) : kNaN;
         t.abscissa.push_back(e.s);
         t.diameter.push_back(2 * e.radius);
         t.area.push_back(area);

@@ -70,7 +70,7 @@ Distribution distribution_of(std::vector<std::pair<double, double>> weighted) {
     }
     d.mean = sum / total;
     for (const auto& [value, weight] : weighted) squares += weight * (value - d.mean) * (value - d.mean);
-    d.sd = std::sqrt(squares / total);
+    if (weighted.size() > 1) d.sd = std::sqrt(squares / total);
     d.min = weighted.front().first;
     d.max = weighted.back().first;
     d.p05 = quantile(weighted, total, 0.05);

@@ -24,6 +24,7 @@ StraightFit repeated_median(std::span<const double> x, std::span<const double> y
 double median_of(std::vector<double>& values);
 
 /// @param weighted  value and weight; values that are NaN are left out
+/// @returns         NaN of none; of one the standard deviation is NaN
 Distribution distribution_of(std::vector<std::pair<double, double>> weighted);
 
 }  // namespace lumenline

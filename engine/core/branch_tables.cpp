@@ -248,7 +248,7 @@ Table table_of_stenoses(const StenosisTable& t) {
         .add("ecst_diameter", "1", "1 - diameter / fitted_reference", kEcst, t.ecst_diameter)
         .add("ecst_area", "1", "1 - area / that of the line fitted to the roots of the areas", kEcst, t.ecst_area)
         .add("distal_reference", "length",
-             "median inscribed diameter over up to ten radii distal to twice the way to `to`; NaN = no such part",
+             "median inscribed diameter over one to ten radii distal to twice the way to `to`; NaN = no such part",
              kNascet, t.distal_reference)
         .add("fitted_reference", "length", "diameter of the straight line fitted to the radii of the own part, there",
              kSiegel, t.fitted_reference)

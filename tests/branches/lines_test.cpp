@@ -134,6 +134,7 @@ TEST(Split, LinesThatPartAtTheInletLeaveARootWithoutMeasures) {
     const Branches found = find_branches(Surface(), test::centerlines_of(lines), nullptr, {}, context);
     ASSERT_EQ(found.graph.branch_count(), 3U);
     EXPECT_TRUE(test::has_finding(context.diagnostics(), "branch_without_own_part"));
+    EXPECT_TRUE(test::has_finding(context.diagnostics(), "measures_not_known"));
     EXPECT_EQ(found.table.own_length[0], 0);
     for (const double missing :
          {found.table.taper[0], found.table.radius[0].mean, found.table.curvature[0].mean, found.stenoses.diameter[0],
@@ -162,6 +163,27 @@ std::vector<PlainLine> ring_with_stem() {
     along(lines[2], 0, -(kPi - 0.4));
     lines[1].loop = lines[2].loop = 0;
     return lines;
+}
+
+TEST(Calibre, AVesselNarrowestAtItsEndHasNoDistalReference) {
+    PlainLine line = straight({0, 0, 0}, {20, 0, 0}, 1);
+    line.target = 1;
+    for (std::size_t k = 0; k < line.points.size(); ++k)  // a cone with a waist in its last radius
+        line.radius[k] = 1 - 0.01 * line.points[k].x - 0.2 * std::max(0.0, line.points[k].x - 19);
+    const Branches found = branches_of({line});
+    ASSERT_EQ(found.stenoses.abscissa.size(), 1U);
+    EXPECT_NEAR(found.stenoses.abscissa[0], 20, 0.01);
+    EXPECT_NEAR(found.stenoses.ecst_diameter[0], 0.2 / 0.8, 0.02);
+    EXPECT_TRUE(std::isnan(found.stenoses.nascet_diameter[0])) << "not the degree 0 against itself";
+    EXPECT_TRUE(std::isnan(found.stenoses.nascet_area[0]));
+}
+
+TEST(Calibre, AnOwnPartOfFewPointsHasNoFit) {
+    PlainLine line = straight({0, 0, 0}, {0.5, 0, 0}, 1);
+    line.target = 1;
+    const Branches found = branches_of({line});
+    for (const double value : {found.stenoses.ecst_diameter[0], found.stenoses.diameter[0], found.dilations.ratio[0]})
+        EXPECT_TRUE(std::isnan(value));
 }
 
 TEST(Split, LoopIsAGraphWithACycle) {

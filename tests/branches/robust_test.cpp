@@ -35,6 +35,7 @@ TEST(Distribution, WeightsCountAndMissingValuesDoNot) {
     EXPECT_DOUBLE_EQ(d.median, 2);
     EXPECT_DOUBLE_EQ(d.p25, 1 + 0.5 / 1.5);
     EXPECT_TRUE(std::isnan(distribution_of({{nan, 1}}).mean));
+    EXPECT_TRUE(std::isnan(distribution_of({{3, 1}}).sd)) << "one value does not vary";
 }
 
 TEST(Murray, ExponentOfKnownRatios) {
