@@ -57,7 +57,7 @@ namespace {
 
 /// Raised whenever a change of a stage's algorithm can change its result.
 constexpr std::string_view kAlgorithmVersions =
-    "condition.version=3\nvoronoi.version=3\nendpoints.version=2\neikonal.version=1\ntrace.version=4\n"
+    "condition.version=3\nvoronoi.version=4\nendpoints.version=2\neikonal.version=1\ntrace.version=4\n"
     "characterize.version=1\nbranches.version=2\n";
 
 std::string points_text(const std::vector<Vec3>& points) {

@@ -34,6 +34,9 @@ constexpr double kShortEdge2 = 0.2 * 0.2;
 /// not small against edges, as far from the origin, it is noise like any other, and only cells lower than this share
 /// of the edges are.
 constexpr double kFlatRoundings = 64, kFlatShare = 0.01;
+/// A ball touches the sites of a flat cell if none is farther from its sphere than this many heights: the centres along
+/// the axis of one circle differ by few radii.
+constexpr double kSettled = 8;
 
 struct SiteFrame {
     Vec3 position, normal;
@@ -122,8 +125,25 @@ std::vector<std::uint32_t> curve_order(const std::vector<Vec3>& centres, const s
     return order;
 }
 
-/// Gives every group of flat cells that hang together the centre of the first cell beside it that is not flat.
-void settle_flat_cells(InsideCells& cells, const std::vector<std::uint8_t>& flat) {
+/// A cell that has no centre of its own: lower than `height`, no more than 64 roundings or a hundredth of its edges.
+double flat_height(const std::array<std::uint32_t, 4>& sites, const std::vector<SiteFrame>& frames,
+                   double coordinate_rounding) {
+    double longest2 = 0;
+    for (const std::uint32_t s : sites) longest2 = std::max(longest2, frames[s].longest_edge);
+    return std::min(kFlatRoundings * coordinate_rounding, kFlatShare * std::sqrt(longest2));
+}
+
+/// Gives flat cells that hang together the centre of the first cell beside them that is not flat, if its ball touches
+/// their sites: those of one circle do. Where circles of several kinds hang together a cell takes the centre of one of
+/// its own neighbours, or keeps what it has.
+void settle_flat_cells(InsideCells& cells, const std::vector<std::uint8_t>& flat, const std::vector<SiteFrame>& frames,
+                       double coordinate_rounding) {
+    const auto touches = [&](std::uint32_t cell, std::uint32_t firm) {
+        const double most = kSettled * flat_height(cells.sites[cell], frames, coordinate_rounding);
+        return std::all_of(cells.sites[cell].begin(), cells.sites[cell].end(), [&](std::uint32_t s) {
+            return std::fabs(distance(cells.centre[firm], frames[s].position) - cells.radius[firm]) <= most;
+        });
+    };
     std::vector<bool> seen(cells.count(), false);
     std::vector<std::uint32_t> group;
     for (std::uint32_t start = 0; start < cells.count(); ++start) {
@@ -143,8 +163,15 @@ void settle_flat_cells(InsideCells& cells, const std::vector<std::uint8_t>& flat
             }
         if (firm == InsideCells::kOutside) continue;
         for (const std::uint32_t cell : group) {
-            cells.centre[cell] = cells.centre[firm];
-            cells.radius[cell] = cells.radius[firm];
+            std::array<std::uint32_t, 5> choices{firm};
+            std::copy(cells.neighbours[cell].begin(), cells.neighbours[cell].end(), choices.begin() + 1);
+            std::sort(choices.begin() + 1, choices.end());
+            const auto choice = std::find_if(choices.begin(), choices.end(), [&](std::uint32_t n) {
+                return n != InsideCells::kOutside && flat[n] == 0 && touches(cell, n);
+            });
+            if (choice == choices.end()) continue;
+            cells.centre[cell] = cells.centre[*choice];
+            cells.radius[cell] = cells.radius[*choice];
         }
     }
 }
@@ -220,7 +247,6 @@ std::vector<std::uint8_t> gather(const Tetrahedra& tetrahedra, const std::vector
     inside.sites.resize(order.size());
     inside.neighbours.resize(order.size());
     std::vector<std::uint8_t> flat(order.size(), 0);
-    const double height = kFlatRoundings * coordinate_rounding;
     context.parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t cell = order[i];
@@ -228,12 +254,8 @@ std::vector<std::uint8_t> gather(const Tetrahedra& tetrahedra, const std::vector
             inside.sites[i] = tetrahedra.sites[cell];
             const auto corner = [&](std::size_t k) { return frames[inside.sites[i][k]].position; };
             inside.radius[i] = distance(centres[cell], corner(0));
-            double longest2 = 0;
-            for (const std::uint32_t s : inside.sites[i]) longest2 = std::max(longest2, frames[s].longest_edge);
-            flat[i] =
-                is_flat(corner(0), corner(1), corner(2), corner(3), std::min(height, kFlatShare * std::sqrt(longest2)))
-                    ? 1
-                    : 0;
+            const double height = flat_height(inside.sites[i], frames, coordinate_rounding);
+            flat[i] = is_flat(corner(0), corner(1), corner(2), corner(3), height) ? 1 : 0;
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::uint32_t n = tetrahedra.neighbours[cell][k];
                 inside.neighbours[i][k] = n == Tetrahedra::kOuter ? InsideCells::kOutside : number[n];
@@ -280,7 +302,8 @@ InsideCells find_inside_cells(const Surface& surface, Tetrahedra tetrahedra, Sta
     for (const std::size_t q : queried) inside.queried += q;
     const std::vector<std::uint8_t> flat =
         gather(tetrahedra, centres, order, frames, surface.coordinate_rounding, inside, context);
-    if (std::find(flat.begin(), flat.end(), 1) != flat.end()) settle_flat_cells(inside, flat);
+    if (std::find(flat.begin(), flat.end(), 1) != flat.end())
+        settle_flat_cells(inside, flat, frames, surface.coordinate_rounding);
     cut_edges(inside, frames, test, context);
     return inside;
 }

@@ -3,6 +3,8 @@
 // complex.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -85,6 +87,34 @@ TEST(Voronoi, PhantomsOfFloat32CoordinatesFitTheDefinition) {
             const Surface surface = test::closed_surface(make_phantom(options));
             expect_sound(surface, test::complex_of(surface), kTolerance);
         }
+}
+
+TEST(Voronoi, BallsTouchTheirSitesWhereFlatCellsOfSeveralCirclesHangTogether) {
+    // Coordinates on a grid so coarse that many cells count as flat. If all that hang together took one centre, balls
+    // would miss their sites by a fifth of an edge here, and by a whole radius on a coarse aorta in single precision.
+    for (const unsigned seed : {1U, 2U, 4U}) {
+        PhantomOptions options;
+        options.kind = PhantomKind::kStenosis;
+        options.points_around = 24;
+        options.jitter = 0.2;
+        options.seed = seed;
+        StageContext context(Stage::kCondition);
+        Surface surface = condition_surface(to_soup(make_phantom(options)), {}, context);
+        surface.coordinate_rounding = 1e-5 * surface.diagonal;
+        const double grid = 2 * surface.coordinate_rounding;
+        for (Vec3& p : surface.points)
+            for (int axis = 0; axis < 3; ++axis) p[axis] = grid * std::round(p[axis] / grid);
+        const VoronoiComplex complex = test::complex_of(surface);
+        double farthest = 0;
+        for (std::size_t p = 0; p < complex.polygon_count(); ++p)
+            for (const SiteId s : complex.polygon_sites[p])
+                for (const VoronoiVertexId v : complex.polygon(PolygonId(p)))
+                    if (!s.is_none())
+                        farthest =
+                            std::max(farthest, std::fabs(distance(complex.vertices[at(v)], surface.points[at(s)]) -
+                                                         complex.ball_radius[at(v)]));
+        EXPECT_LT(farthest, 0.1 * surface.median_edge);
+    }
 }
 
 TEST(Voronoi, JitteredPhantomsAgreePolygonByPolygonWithASecondConstruction) {
