@@ -3,8 +3,9 @@
 // branches of the other tree, so D takes the least over the chains that start at i or at j. Children have higher
 // numbers than their parents: going down the numbers of both trees, all that an entry needs is there.
 //
-// Trap: where a leaf is missing its parent and its sibling are one branch. Without chains everything behind would be
-// matched one level too high.
+// Traps: where a leaf is missing its parent and its sibling are one branch; without chains everything behind would be
+// matched one level too high. And where three branches leave a node in one tree, in the other two may leave it, one of
+// which parts soon: so a child may be left out and its own children take its place.
 #include "engine/population/tree_matching.h"
 
 #include <algorithm>
@@ -67,6 +68,14 @@ public:
     /// Of branch `b`; of count(), the branches that start at inlets.
     [[nodiscard]] const std::vector<std::size_t>& children(std::size_t b) const { return children_[b]; }
     [[nodiscard]] bool is_leaf(std::size_t b) const { return children_[b].empty(); }
+    /// The same with the children of `child` in its place.
+    [[nodiscard]] std::vector<std::size_t> without(std::size_t b, std::size_t child) const {
+        std::vector<std::size_t> others = children_[child];
+        for (const std::size_t c : children_[b])
+            if (c != child) others.push_back(c);
+        std::sort(others.begin(), others.end());
+        return others;
+    }
     /// That start with `b`, the shortest first.
     [[nodiscard]] const std::vector<Chain>& chains(std::size_t b) const { return chains_[b]; }
     /// The branches of a chain that ends with `last`.
@@ -135,13 +144,13 @@ public:
         const std::size_t n = first_.count(), m = second_.count();
         for (std::size_t i = n; i-- > 0;)
             for (std::size_t j = m; j-- > 0;) {
-                behind_[i * m + j] = assign_children(i, j).cost;
+                behind_[i * m + j] = children_cost(i, j);
                 whole_[i * m + j] = best_pair(i, j).cost;
             }
         match_.partners.resize(n);
         match_.part.resize(n, 0);
         match_.confidence.resize(n, kNaN);
-        match_.cost = assign_children(n, m).cost;
+        match_.cost = children_cost(n, m);
         take_children(n, m, kInfinity);
         return std::move(match_);
     }
@@ -184,35 +193,80 @@ private:
 
     [[nodiscard]] double behind(std::size_t i, std::size_t j) const { return behind_[i * second_.count() + j]; }
 
+    /// Two sets of branches to be assigned to each other, at a price for how they came about.
     struct Children {
+        std::vector<std::size_t> first, second;
         std::vector<double> pair, without_first, without_second;
+        double price = 0;
     };
 
-    [[nodiscard]] Children children_costs(std::size_t i, std::size_t j) const {
-        Children costs;
-        for (const std::size_t a : first_.children(i)) {
-            for (const std::size_t b : second_.children(j)) costs.pair.push_back(whole_[a * second_.count() + b]);
-            costs.without_first.push_back(kWithout * first_.size(a));
+    [[nodiscard]] Children children_of(std::vector<std::size_t> first, std::vector<std::size_t> second,
+                                       double price) const {
+        Children c{std::move(first), std::move(second), {}, {}, {}, price};
+        for (const std::size_t a : c.first) {
+            for (const std::size_t b : c.second) c.pair.push_back(whole_[a * second_.count() + b]);
+            c.without_first.push_back(kWithout * first_.size(a));
         }
-        for (const std::size_t b : second_.children(j)) costs.without_second.push_back(kWithout * second_.size(b));
-        return costs;
+        for (const std::size_t b : c.second) c.without_second.push_back(kWithout * second_.size(b));
+        return c;
     }
 
-    [[nodiscard]] Assignment assign_children(std::size_t i, std::size_t j) const {
-        const Children c = children_costs(i, j);
-        return assign(c.pair, c.without_first, c.without_second);
+    /// What leaves the ends of i and j: as it is, and with one child left out on either side, whose own children take
+    /// its place.
+    [[nodiscard]] std::vector<Children> children(std::size_t i, std::size_t j) const {
+        const std::vector<std::size_t>&first = first_.children(i), &second = second_.children(j);
+        std::vector<Children> all{children_of(first, second, 0)};
+        for (const std::size_t a : first)
+            if (!first_.is_leaf(a)) all.push_back(children_of(first_.without(i, a), second, kWithout));
+        for (const std::size_t b : second)
+            if (!second_.is_leaf(b)) all.push_back(children_of(first, second_.without(j, b), kWithout));
+        return all;
+    }
+
+    static Assignment assign_in(const Children& c) {
+        Assignment found = assign(c.pair, c.without_first, c.without_second);
+        found.cost += c.price;
+        return found;
+    }
+
+    [[nodiscard]] double children_cost(std::size_t i, std::size_t j) const {
+        double least = kInfinity;
+        for (const Children& c : children(i, j)) least = std::min(least, assign_in(c).cost);
+        return least;
+    }
+
+    /// Least cost where `a` does not get `b`.
+    static double cost_otherwise(const std::vector<Children>& all, std::size_t a, std::size_t b) {
+        double least = kInfinity;
+        for (const Children& c : all) {
+            const auto k = std::find(c.first.begin(), c.first.end(), a);
+            const auto l = std::find(c.second.begin(), c.second.end(), b);
+            const double cost = k == c.first.end() || l == c.second.end()
+                                    ? assign_in(c).cost
+                                    : c.price + assign_otherwise(c.pair, c.without_first, c.without_second,
+                                                                 static_cast<std::size_t>(k - c.first.begin()),
+                                                                 static_cast<std::size_t>(l - c.second.begin()))
+                                                    .cost;
+            least = std::min(least, cost);
+        }
+        return least;
     }
 
     /// Writes down the match of what is behind i and j, and goes on behind that.
     void take_children(std::size_t i, std::size_t j, double margin) {
-        const Children c = children_costs(i, j);
-        const Assignment best = assign(c.pair, c.without_first, c.without_second);
+        const std::vector<Children> all = children(i, j);
+        std::size_t chosen = 0;
+        Assignment best = assign_in(all[0]);
+        for (std::size_t v = 1; v < all.size(); ++v)
+            if (Assignment found = assign_in(all[v]); found.cost < best.cost) {
+                best = std::move(found);
+                chosen = v;
+            }
         for (std::size_t k = 0; k < best.partner.size(); ++k) {
-            const std::size_t l = best.partner[k];
-            if (l == kNone) continue;
-            const Assignment other = assign_otherwise(c.pair, c.without_first, c.without_second, k, l);
-            const Pair pair = best_pair(first_.children(i)[k], second_.children(j)[l]);
-            const double own = std::min({margin, other.cost - best.cost, pair.next - pair.cost});
+            if (best.partner[k] == kNone) continue;
+            const std::size_t a = all[chosen].first[k], b = all[chosen].second[best.partner[k]];
+            const Pair pair = best_pair(a, b);
+            const double own = std::min({margin, cost_otherwise(all, a, b) - best.cost, pair.next - pair.cost});
             write(pair, own);
             take_children(pair.first->last, pair.second->last, own);
         }

@@ -24,7 +24,8 @@ struct TreeMatch {
 /// Least cost over all correspondences that keep the order from the inlet: a branch and what leaves its end correspond
 /// to a branch and what leaves its end, children to children by optimal assignment, whole subtrees staying without
 /// counterpart at a price (Zhang 1996, Algorithmica 15:205, constrained edit distance of unordered trees); and a branch
-/// may correspond to several that follow each other, the others that leave between them staying without. What two
+/// may correspond to several that follow each other, the others that leave between them staying without; and one child
+/// of a branch may be left out, its own children taking its place, as where a junction of three is two of two. What two
 /// branches cost is half the sum of squares of the differences of log length and log radius, of their angles with the
 /// branches one and two levels above, and with `axes` of the angle between them in the coordinates, each over its
 /// spread (see README.md). Lengths are in units of each tree's own calibre. The branches by which nodes are reached

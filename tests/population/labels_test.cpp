@@ -151,6 +151,15 @@ TEST(TreeMatching, AMissingLeafUnitesItsParentWithItsSibling) {
     EXPECT_TRUE(std::isnan(parts.confidence[4])) << "no counterpart, no confidence";
 }
 
+TEST(TreeMatching, AJunctionOfThreeMayBeTwoOfTwo) {
+    const Vec3 ahead{0, 0, -1}, left{1, 0, -1}, right{-1, 0.2, -0.7};
+    const std::vector<Twig> three{{-1, 60, 6, ahead}, {0, 50, 4, left}, {0, 40, 3, ahead}, {0, 22, 2, right}};
+    const std::vector<Twig> two{
+        {-1, 60, 6, ahead}, {0, 6, 4.5, ahead}, {0, 22, 2, right}, {1, 48, 4, left}, {1, 38, 3, ahead}};
+    EXPECT_EQ(matched(tree_of(two), tree_of(three)).label, (Strings{"1", "", "1.3of3", "1.1of3", "1.2of3"}));
+    EXPECT_EQ(matched(tree_of(three), tree_of(two)).label, (Strings{"1", "1.1.1", "1.1.2", "1.2"}));
+}
+
 TEST(TreeMatching, ChildrenThatAreAlikeHaveNoConfidence) {
     std::vector<Twig> alike = twigs();
     alike[5] = {2, 20, 2.4, {-1, 0.2, -0.4}};
