@@ -175,8 +175,10 @@ private:
         const bool is_shard = shard_.count > 1;
         const std::vector<const ModelTask*> shown = is_shard ? tasks_ : select_tasks(config_, {});
         const std::map<std::string, ModelSummary> unchanged = read_unchanged_rows(config_.archive.directory);
+        bool index_stands = finished_.empty() && unchanged.size() == shown.size();
         for (const ModelTask* task : shown) {
             const auto known = unchanged.find(task->identity.id);
+            index_stands = index_stands && known != unchanged.end();
             if (const auto found = finished_.find(task->identity.id); found != finished_.end())
                 rows_.push_back(found->second);
             else if (known != unchanged.end() && !known->second.failure)
@@ -184,7 +186,9 @@ private:
             else if (std::optional<ModelSummary> row = index_row(config_.archive, *task))
                 rows_.push_back(std::move(*row));
         }
-        if (!is_shard) make_index(config_, rows_);
+        if (is_shard || (index_stands && index_is_of(config_.archive.directory, config_.text, resolved_text(config_))))
+            return;
+        make_index(config_, rows_);
     }
 
     int finish(const RunReport& report) {

@@ -226,8 +226,9 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--where", study.where, "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold");
     verb->add_option("--subject", study.subject, "column of subjects, whose rows are not independent")
         ->capture_default_str();
-    verb->add_option("--label", study.label, "column whose values are studied apart, as the label of a branch");
-    verb->add_option("--bin-by", study.bin_by, "column of numbers from 0 to 1 to make a profile over");
+    verb->add_option("--label", study.label, "column whose values are studied apart, as branch_label");
+    verb->add_option("--bin-by", study.bin_by,
+                     "column of numbers from 0 to 1 to make a profile over, as abscissa_relative of sections");
     verb->add_option("--bins", study.bins, "of the profile")->capture_default_str();
     verb->add_option("--normalize-by", study.normalize_by, "column that measures are divided by, as body size");
     verb->add_option("--adjust", study.adjust, "covariates of a linear model beside the groups")->delimiter(',');

@@ -61,6 +61,11 @@ struct ModelState {
 /// @cost   one look at each file's entry in its folder; no model file is opened
 std::map<std::string, ModelSummary> read_unchanged_rows(const std::filesystem::path& archive_dir);
 
+/// Was the index that stands made by this program from this configuration? If also all of its models are unchanged, one
+/// made anew would be the same.
+bool index_is_of(const std::filesystem::path& archive_dir, std::string_view config_text,
+                 std::string_view resolved_config);
+
 /// The state of a model from the attributes of its file alone; empty if there is no file.
 /// @throws ArchiveError if it is no model file, or damaged
 std::optional<ModelState> read_state(const std::filesystem::path& model_file);

@@ -7,11 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/version.h"
 #include "io/archive/file_stamp.h"
 #include "io/archive/index.h"
 #include "io/archive/index_names.h"
 #include "io/archive/model_file.h"
 #include "io/archive/read.h"
+#include "io/archive/utf8.h"
 
 namespace lumenline {
 
@@ -45,6 +47,20 @@ std::map<std::string, ModelSummary> read_unchanged_rows(const std::filesystem::p
         rows.clear();
     }
     return rows;
+}
+
+bool index_is_of(const std::filesystem::path& archive_dir, std::string_view config_text,
+                 std::string_view resolved_config) {
+    try {
+        const ArchiveFile index(archive_dir / names::kIndexFile);
+        const auto holds = [&](const names::Field& field, std::string_view text) {
+            return index.strings(field.path) == std::vector<std::string>{valid_text(text)};
+        };
+        return index.attribute("/", "lumenline_version") == version() && index.has(names::kDictionaryTable.path) &&
+               holds(names::kConfigGiven, config_text) && holds(names::kConfigResolved, resolved_config);
+    } catch (const ArchiveError&) {
+        return false;
+    }
 }
 
 }  // namespace lumenline

@@ -70,7 +70,15 @@ TEST(Resume, WhatIsDoneIsNotDoneTwiceAndTheIndexStaysTheSame) {
         fs::last_write_time(folder / surface, fs::file_time_type::clock::now() + std::chrono::hours(1));
     EXPECT_EQ(rerun(folder, 0, {"--threads", "1"}), Ids{});
     EXPECT_EQ(differences(index, hdf_contents(folder / "results/cohort.h5")), Ids{});
-    // And beside an index that stands, with all rows of its tables.
+    // And beside an index that stands, with all rows of its tables, whether it is made anew or not.
+    replace(folder / "cohort.yaml", "length_unit: mm", "# a remark\nlength_unit: mm");
+    EXPECT_NE(run_cohort(folder).out.find("(4 of them before)"), std::string::npos);
+    auto remarked = hdf_contents(folder / "results/cohort.h5");
+    EXPECT_NE(remarked.at("/config/given"), index.at("/config/given"));
+    remarked["/config/given"] = index.at("/config/given");
+    EXPECT_EQ(differences(index, remarked), Ids{});
+    replace(folder / "cohort.yaml", "# a remark\n", "");
+    run_cohort(folder);
     EXPECT_NE(run_cohort(folder).out.find("(4 of them before)"), std::string::npos);
     EXPECT_EQ(differences(index, hdf_contents(folder / "results/cohort.h5")), Ids{});
 }
