@@ -240,5 +240,26 @@ TEST(Labels, WhatIsGivenByHandStands) {
     EXPECT_EQ(label_branches(options, models).of[0].label, Strings(7));
 }
 
+TEST(Labels, OrderOfTheModelsPlaysNoPart) {
+    std::vector<BranchTree> trees;
+    for (int k = 0; k < 4; ++k) {
+        std::vector<Twig> copy = twigs();
+        for (Twig& t : copy) t.length *= 1 + 0.02 * k * (t.parent + 1);
+        trees.push_back(tree_of(copy));
+    }
+    LabelOptions options;
+    options.rule = LabelRule::kTemplate;
+    options.template_model = "m2";
+    std::vector<LabelledModel> models;
+    for (std::size_t k = 0; k < 4; ++k) models.push_back({"m" + std::to_string(k), {}, &trees[k]});
+    const CohortLabels plain = label_branches(options, models);
+    std::reverse(models.begin(), models.end());
+    const CohortLabels other = label_branches(options, models);
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(plain.of[k].label, other.of[3 - k].label);
+        EXPECT_EQ(plain.of[k].confidence, other.of[3 - k].confidence);
+    }
+}
+
 }  // namespace
 }  // namespace lumenline
