@@ -7,7 +7,7 @@ packages_build=(
     libcgal-dev libgmp-dev libmpfr-dev libboost-dev libeigen3-dev
     libtbb-dev libopenmesh-dev libhdf5-dev libssl-dev
     libyaml-cpp-dev libcli11-dev libfmt-dev
-    libpugixml-dev zlib1g-dev nlohmann-json3-dev libcpp-httplib-dev)
+    libpugixml-dev zlib1g-dev libpng-dev nlohmann-json3-dev libcpp-httplib-dev)
 packages_test=(libgtest-dev libbenchmark-dev python3-scipy python3-h5py python3-pandas python3-matplotlib
     slurm-wlm munge)
 # For the tests in a browser; where Node.js and npm are installed in another way, these are used.

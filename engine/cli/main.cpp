@@ -10,6 +10,7 @@
 #include "engine/cli/export.h"
 #include "engine/cli/pack.h"
 #include "engine/cli/phantom.h"
+#include "engine/cli/report.h"
 #include "engine/cli/run.h"
 #include "engine/cli/stats.h"
 #include "engine/cli/status.h"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     add_stats(app, action);
     add_pack(app, action);
     add_export(app, action);
+    add_report(app, action);
     add_validate_archive(app, action);
     add_phantom(app, action);
     add_worker(app, action);

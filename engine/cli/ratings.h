@@ -1,14 +1,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "engine/core/data_table.h"
 
 namespace lumenline {
 
-/// Adds the column `rating` of a table of ratings (columns `id` and `rating`, as `report` writes it) to a table by the
-/// models' ids; models without a row stay unrated.
+/// Adds the columns `rating` and `rating_note` of a table of ratings (columns `model`, or `id`, `rating` and perhaps
+/// `note`) to a table by the models' ids; models without a row stay unrated.
 /// @throws ConfigError if the file is no such table
 void add_ratings(const std::filesystem::path& ratings, DataTable& table);
+
+/// A table of ratings to be filled in, as a TSV file: model, rating, note, one row per row of the table of models, with
+/// what it has from `add_ratings`.
+std::string ratings_table(const DataTable& table);
 
 }  // namespace lumenline

@@ -242,7 +242,7 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
     verb->add_option("--ratings", request->ratings,
-                     "TSV or CSV with the columns id and rating: models rated 'bad' are left out");
+                     "TSV or CSV with the columns model and rating, as report writes it: models rated 'bad' are left out");
     verb->add_option("--format", request->format, "text, tsv or json")
         ->check(CLI::IsMember({"text", "tsv", "json"}))
         ->capture_default_str();

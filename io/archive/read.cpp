@@ -95,9 +95,9 @@ struct ArchiveFile::Impl {
     }
 
     /// Is there a dataset of that path in this file? What a link to another file leads to is none of it.
-    [[nodiscard]] bool is_dataset(const std::string& path) const {
-        for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-            const std::string part = from_root(path.substr(0, end));
+    [[nodiscard]] bool is_dataset(const std::string& dataset) const {
+        for (std::size_t end = dataset.find('/', 1);; end = dataset.find('/', end + 1)) {
+            const std::string part = from_root(dataset.substr(0, end));
             H5L_info_t link{};
             if (H5Lexists(root.get(), part.c_str(), H5P_DEFAULT) <= 0 ||
                 H5Lget_info(root.get(), part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
@@ -105,7 +105,7 @@ struct ArchiveFile::Impl {
             if (end == std::string::npos) break;
         }
         H5O_info_t info{};
-        return H5Oget_info_by_name2(root.get(), from_root(path).c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+        return H5Oget_info_by_name2(root.get(), from_root(dataset).c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
                info.type == H5O_TYPE_DATASET;
     }
 

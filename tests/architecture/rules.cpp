@@ -53,6 +53,7 @@ const std::vector<Library>& libraries() {
         {"OpenSSL", {"openssl/"}, {"io/mesh", "io/export"}},
         {"pugixml", {"pugixml"}, {"io/mesh"}},
         {"zlib", {"zlib.h"}, {"io/mesh", "io/viewer"}},
+        {"libpng", {"png.h", "libpng"}, {"io/export"}},
         {"CLI11", {"CLI/"}, {"engine/cli"}},
         {"cpp-httplib", {"httplib"}, {"engine/cli"}},
         {"VTK", {"vtk"}, {}},

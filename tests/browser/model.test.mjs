@@ -69,7 +69,7 @@ test("a click on the wall gives the values there, its pole, and the place on the
   await page.waitForSelector(".picked h2");
   const text = await page.locator(".picked").innerText();
   assert.match(text, /Site \d+/);
-  for (const name of ["D_g", "D_e", "NTD", "Abscissa", "ball at the pole"]) assert.ok(text.includes(name), name);
+  for (const name of ["D_g", "D_e", "NTD", "Abscissa", "ball at the pole", "by steepest descent"]) assert.ok(text.includes(name), name);
   await page.waitForTimeout(500);
   const picked = await picture(page.locator(".scene"), "model-picked");
   assert.ok(difference(before, picked) > 0.005, "the pole and its ball are drawn");

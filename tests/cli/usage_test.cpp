@@ -6,7 +6,7 @@
 namespace lumenline::cli_test {
 namespace {
 
-constexpr const char* kVerbs[] = {"run", "status", "merge", "submit", "validate", "model", "browse", "phantom", "validate-archive"};
+constexpr const char* kVerbs[] = {"run", "status", "merge", "submit", "validate", "model", "browse", "phantom", "validate-archive", "report"};
 
 TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
     const Finished whole = run_lumenline({"--help"}, fresh_folder());
@@ -80,6 +80,8 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"browse", "archive", "page"}, "--output"},
         {{"browse", "archive", "list", "--json", "--csv"}, "--json"},
         {{"validate-archive"}, "ARCHIVE"},
+        {{"report", "archive"}, "--output"},
+        {{"report", "archive", "-o", "r.html", "--picture-size", "3"}, "--picture-size"},
         {{"phantom"}, "KIND"},
         {{"phantom", "cylinder"}, "--output"},
         {{"phantom", "torus", "-o", "a.ply", "--voxel", "0"}, "--voxel"},

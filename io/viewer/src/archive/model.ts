@@ -1,13 +1,13 @@
 // One model: geometry first, fields when they are asked for. Parts that the file has not are left away; a part that is
 // damaged is left away with a note, so that the rest can still be looked at. Indices are checked against what they
 // point into before anything is drawn with them.
-import { ArchiveError, type Hdf5, type DatasetInfo, type Numbers } from "./hdf5";
-import type { Ends, Field, Finding, LinesPart, MarkedTable, Model, Profile, Site, SurfacePart, Voronoi } from "./protocol";
-import { readTable } from "./cohort";
+import { Diagram } from "./diagram";
+import { ArchiveError, type Hdf5, type DatasetInfo } from "./hdf5";
 import { interpolated } from "./interpolate";
+import { Places } from "./places";
+import { boxOf, centred, type Point } from "./points";
+import type { Ends, Field, Finding, LinesPart, Model, Profile, Site, SurfacePart, Voronoi } from "./protocol";
 import { labelOf, symbolOf } from "./words";
-
-type Point = [number, number, number];
 
 /** Categories are ids; of integers, these are measures or pointers instead. */
 const kNoField = new Set(["points", "normals", "triangles", "input_vertex", "pole", "cap", "polygon_vertices"]);
@@ -19,33 +19,6 @@ const kOrder = [
 ];
 
 const rank = (key: string) => (kOrder.includes(key) ? kOrder.indexOf(key) : kOrder.length);
-
-function centred(points: Numbers, centre: Point): Float32Array {
-  const out = new Float32Array(points.length);
-  for (let i = 0; i < points.length; i += 3) {
-    out[i] = points[i]! - centre[0];
-    out[i + 1] = points[i + 1]! - centre[1];
-    out[i + 2] = points[i + 2]! - centre[2];
-  }
-  return out;
-}
-
-function boxOf(points: Numbers, corners: ArrayLike<number> | null): { centre: Point; diagonal: number } {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  const count = corners ? corners.length : points.length / 3;
-  for (let i = 0; i < count; ++i) {
-    const at = 3 * (corners ? corners[i]! : i);
-    for (let axis = 0; axis < 3; ++axis) {
-      const x = points[at + axis]!;
-      if (x < low[axis]!) low[axis] = x;
-      if (x > high[axis]!) high[axis] = x;
-    }
-  }
-  if (!low.every(Number.isFinite) || !high.every(Number.isFinite)) return { centre: [0, 0, 0], diagonal: 1 };
-  const centre = low.map((x, axis) => (x + high[axis]!) / 2) as Point;
-  return { centre, diagonal: Math.hypot(...high.map((x, axis) => x - low[axis]!)) || 1 };
-}
 
 function fieldOf(info: DatasetInfo, key: string, row: number, label: string): Field {
   return {
@@ -60,20 +33,10 @@ function fieldOf(info: DatasetInfo, key: string, row: number, label: string): Fi
   };
 }
 
-const kCircle = 48; // corners of a drawn circle
-
-/** Two unit vectors across a unit vector and each other. */
-function across([x, y, z]: Point): [Point, Point] {
-  const a: Point = Math.abs(x) < 0.6 ? [0, z, -y] : [-z, 0, x];
-  const length = Math.hypot(...a) || 1;
-  const u = a.map((part) => part / length) as Point;
-  return [u, [y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]]];
-}
-
 /** An open model within a file: the file's root, or a group of a packed archive. */
 export class ModelReader {
   private centre: Point = [0, 0, 0];
-  private polygons: Voronoi | null = null;
+  private diagram: Diagram | null = null;
 
   constructor(private readonly file: Hdf5, private readonly root: string, readonly id: string) {}
 
@@ -138,7 +101,7 @@ export class ModelReader {
     model.lines = this.part("/centerlines", notes, () => this.lines(model));
     model.ends = this.part("/endpoints", notes, () => this.ends());
     for (const name of ["branches", "bifurcations", "sections", "stenoses", "dilations", "loops"]) {
-      const marked = this.part(`/${name}`, notes, () => this.marked(name));
+      const marked = this.part(`/${name}`, notes, () => new Places(this.file, this.root, this.centre).read(name));
       if (marked && marked.table.rows > 0) model.marks.push(marked);
     }
     model.voronoi = this.part("/voronoi", notes, () => {
@@ -222,96 +185,6 @@ export class ModelReader {
     return code.map((name, i) => ({ code: name, severity: severity[i]!, stage: stage[i]!, message: message[i]! }));
   }
 
-  /** A table of things with a place: its columns, and where its rows are, under whatever of these names it has. */
-  private marked(name: string): MarkedTable {
-    const group = this.at(`/${name}`);
-    const infos = this.file.keys(group).map((key) => this.file.info(`${group}/${key}`));
-    const lengths = infos.flatMap((info) => (info && info.shape.length === 1 ? [info.shape[0]!] : []));
-    const places = ["point", "origin", "position", "centre", "center", "throat_point"];
-    const placed = places.map((key) => `${group}/${key}`).find((path) => this.file.info(path)?.shape[1] === 3);
-    const idPath = `${group}/id`;
-    const rows =
-      this.file.info(idPath)?.shape[0] ?? (placed ? this.file.info(placed)!.shape[0]! : Math.min(...lengths, Infinity));
-    if (!Number.isFinite(rows)) return { name, table: { rows: 0, columns: [] }, points: null, outlines: null };
-    const fitting = new Set(infos.flatMap((info) => (info?.shape.length === 1 && info.shape[0] === rows ? [info.path] : [])));
-    const other: string[] = []; // columns of another length are parts of outlines and the like
-    const table = readTable(this.file, group, rows, ["id"], other);
-    table.columns = table.columns.filter((column) => fitting.has(`${group}/${column.name}`));
-    const points = placed
-      ? centred(this.file.numbers(placed, 3 * rows), this.centre)
-      : (this.vectors(group, ["origin", "point", "position"], rows, this.centre) ?? this.onAxes(group, rows));
-    return { name, table, points, outlines: this.outlines(group) ?? this.circles(group, points, rows) };
-  }
-
-  /** Rows of three columns "<name>_x", "_y", "_z", relative to `from`; null if there are none. */
-  private vectors(group: string, names: string[], rows: number, from: Point): Float32Array | null {
-    for (const name of names) {
-      const paths = ["x", "y", "z"].map((axis) => `${group}/${name}_${axis}`);
-      if (!paths.every((path) => this.file.has(path))) continue;
-      const columns = paths.map((path) => this.file.numbers(path, rows));
-      return Float32Array.from({ length: 3 * rows }, (_, i) => columns[i % 3]![Math.floor(i / 3)]! - from[i % 3]!);
-    }
-    return null;
-  }
-
-  /** Places of rows that name a branch and an abscissa: the nearest point of the branch's axis. */
-  private onAxes(group: string, rows: number): Float32Array | null {
-    const axis = this.at("/graph/axis");
-    const needed = [`${group}/branch_id`, `${group}/abscissa`, `${axis}/offsets`, `${axis}/points`, `${axis}/abscissa`];
-    if (!needed.every((path) => this.file.has(path))) return null;
-    const [branch, wanted] = [this.file.numbers(needed[0]!, rows), this.file.numbers(needed[1]!, rows)];
-    const along = this.file.numbers(needed[4]!);
-    const offsets = this.file.offsets(needed[2]!, along.length);
-    const points = this.file.points(needed[3]!, along.length);
-    const places = new Float32Array(3 * rows).fill(NaN);
-    for (let row = 0; row < rows; ++row) {
-      const b = branch[row]!;
-      if (!(b >= 0 && b + 1 < offsets.length) || !Number.isFinite(wanted[row]!)) continue;
-      let nearest = offsets[b]!;
-      for (let k = nearest; k < offsets[b + 1]!; ++k)
-        if (Math.abs(along[k]! - wanted[row]!) < Math.abs(along[nearest]! - wanted[row]!)) nearest = k;
-      for (let x = 0; x < 3; ++x) places[3 * row + x] = points[3 * nearest + x]! - this.centre[x]!;
-    }
-    return places;
-  }
-
-  /** Circles of a section's area in its plane, for sections whose outlines are not in the file. */
-  private circles(group: string, points: Float32Array | null, rows: number): MarkedTable["outlines"] {
-    const diameter = `${group}/equivalent_diameter`;
-    const normals = points && this.file.has(diameter) ? this.vectors(group, ["normal"], rows, [0, 0, 0]) : null;
-    if (!points || !normals) return null;
-    const diameters = this.file.numbers(diameter, rows);
-    const curve: number[] = [];
-    const offsets = [0];
-    for (let row = 0; row < rows; ++row) {
-      const [n, at] = [[...normals.slice(3 * row, 3 * row + 3)], [...points.slice(3 * row, 3 * row + 3)]];
-      const radius = diameters[row]! / 2;
-      if (![...n, ...at, radius].every(Number.isFinite)) continue;
-      const [a, b] = across(n as Point);
-      for (let i = 0; i <= kCircle; ++i) {
-        const [c, s] = [Math.cos((2 * Math.PI * i) / kCircle), Math.sin((2 * Math.PI * i) / kCircle)];
-        for (let x = 0; x < 3; ++x) curve.push(at[x]! + radius * (c * a[x]! + s * b[x]!));
-      }
-      offsets.push(curve.length / 3);
-    }
-    return { points: Float32Array.from(curve), offsets: Int32Array.from(offsets) };
-  }
-
-  /** Closed curves of a group, as offsets and points, or in a group of their own. */
-  private outlines(group: string): MarkedTable["outlines"] {
-    for (const base of [`${group}/outline`, `${group}/contour`, `${group}/polygon`, `${group}/curve`, group]) {
-      const [points, offsets] = [`${base}/points`, `${base}/offsets`];
-      const info = this.file.isGroup(base) ? this.file.info(points) : null;
-      if (!info || info.shape[1] !== 3 || !this.file.info(offsets)) continue;
-      const count = info.shape[0]!;
-      return {
-        points: centred(this.file.points(points, count), this.centre),
-        offsets: this.file.offsets(offsets, count),
-      };
-    }
-    return null;
-  }
-
   /** Quantities of the lines that the wall can be coloured by: those at the abscissa a site belongs to. */
   private derive(surface: SurfacePart, lines: LinesPart): void {
     const has = (key: string) => surface.fields.some((field) => field.key === key);
@@ -346,37 +219,12 @@ export class ModelReader {
     });
   }
 
-  voronoi(): Voronoi {
-    if (this.polygons) return this.polygons;
-    const count = this.rows("/voronoi/vertices", 3);
-    const points = centred(this.file.points(this.at("/voronoi/vertices"), count), this.centre);
-    const corners = this.file.indices(this.at("/voronoi/polygon_vertices"), 0, count);
-    const offsets = this.file.offsets(this.at("/voronoi/polygon_offsets"), corners.length);
-    const added = this.addedPolygons(offsets.length - 1);
-    const [wall, rest, edges]: [number[], number[], number[]] = [[], [], []];
-    for (let p = 0; p + 1 < offsets.length; ++p) {
-      const first = offsets[p]!;
-      const end = offsets[p + 1]!;
-      if (end - first === 2) edges.push(corners[first]!, corners[first + 1]!);
-      // The polygons are convex, so a fan covers them.
-      const fan = added?.[p] ? rest : wall;
-      for (let i = first + 1; i + 1 < end; ++i) fan.push(corners[first]!, corners[i]!, corners[i + 1]!);
-    }
-    const triangles = new Uint32Array(wall.length + rest.length);
-    triangles.set(wall);
-    triangles.set(rest, wall.length);
-    return (this.polygons = { points, triangles, ofWall: wall.length, edges: Uint32Array.from(edges) });
+  private complex(): Diagram {
+    return (this.diagram ??= new Diagram(this.file, this.root, this.centre));
   }
 
-  /** Polygons that a site of an extension or cap takes part in; null if the file does not say. */
-  private addedPolygons(count: number): Uint8Array | null {
-    const [sites, origin] = [this.at("/voronoi/polygon_sites"), this.at("/surface/origin")];
-    if (!this.file.has(sites) || !this.file.has(origin)) return null;
-    const from = this.file.numbers(origin);
-    const pairs = this.file.indices(sites, -1, from.length, 2 * count);
-    const added = new Uint8Array(count);
-    for (let i = 0; i < pairs.length; ++i) if (pairs[i]! >= 0 && from[pairs[i]!]! !== 0) added[i >> 1] = 1;
-    return added;
+  voronoi(): Voronoi {
+    return this.complex().drawing();
   }
 
   site(index: number): Site {
@@ -407,7 +255,10 @@ export class ModelReader {
     if (!this.file.has(this.at("/surface/centerline_point"))) return;
     const end = Array.from(this.file.row(this.at("/surface/centerline_point"), site.index));
     if (!end.every(Number.isFinite)) return;
-    site.way = Float32Array.from([...point, ...end.map((x, axis) => x - this.centre[axis]!)]);
+    const last = end.map((x, axis) => x - this.centre[axis]!);
+    const descent = this.part("/voronoi", [], () => this.complex().descent(pole));
+    site.wayIsStraight = descent === null;
+    site.way = Float32Array.from([...(descent ?? point), ...last]);
   }
 
   /** One quantity along one line; null if the model has no such line. */

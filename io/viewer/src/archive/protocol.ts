@@ -116,7 +116,7 @@ export interface Site {
   values: { label: string; symbol: string; value: number; units: string; category: boolean }[];
   pole: { point: [number, number, number]; radius: number } | null; // relative to the centre, as all points
   way: Float32Array | null; // from the pole to centerline_point
-  wayIsStraight: boolean;
+  wayIsStraight: boolean; // else the descent over the diagram
   line: number; // -1 = none
   abscissa: number;
 }

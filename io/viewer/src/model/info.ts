@@ -16,6 +16,13 @@ type Pair = [name: string, value: string, title?: string];
 const list = (pairs: Pair[]) =>
   pairs.length > 0 && h("dl", { class: "facts" }, pairs.map(([name, value, title]) => [h("dt", { title }, name), h("dd", { title: value }, value)]));
 
+function wayWords(site: Site): string {
+  if (!site.way) return "No way leads on to a centerline.";
+  return site.wayIsStraight
+    ? "Blue: on to the centerline, drawn straight, since the file has no Voronoi diagram with distances."
+    : "Blue: on to the centerline, by steepest descent over the vertices of the Voronoi diagram.";
+}
+
 export class Info {
   readonly root = h("aside", { class: "info", "aria-label": "facts" });
   private readonly pickedPart = h("section", { class: "picked", role: "status" });
@@ -96,7 +103,7 @@ export class Info {
       list([["point", site.point.map((x) => number(x)).join(", ")], ...values,
         ...(site.pole ? [["ball at the pole", withUnits(site.pole.radius, this.model.unit), "radius of the Voronoi ball at the site's pole"] as Pair] : [])]),
       h("p", { class: "quiet" }, site.pole
-        ? "Orange: from the site to its pole, and the ball there. Blue: on to the centerline, drawn straight."
+        ? `Orange: from the site to its pole, and the ball there. ${wayWords(site)}`
         : "The site has no pole in this file."));
   }
 }
