@@ -20,6 +20,7 @@ Next, try:
   build/release/lumenline browse examples/results get portal_vein /centerlines/radius | head
   build/release/lumenline browse examples/results tree arch_to_willis
   build/release/lumenline browse examples/results serve
+  build/release/lumenline report examples/results -o report.html
   build/release/lumenline model examples/liver/gastric_vein.vtk --inlet=27.54,-177.74,-276.02 --outlet=-27.10,-187.21,-275.55 -o gastric.hdf
   paraview examples/results/models/portal_vein.hdf
   bash tests/run.sh
