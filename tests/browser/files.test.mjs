@@ -15,7 +15,11 @@ after(() => browser?.close());
 const written = (name) => join(archives, name);
 
 function writePage(name, ...options) {
-  const done = spawnSync(binary, ["browse", join(archives, "good"), "page", "-o", written(name), ...options], { encoding: "utf8" });
+  return writePageOf("good", name, ...options);
+}
+
+function writePageOf(archive, name, ...options) {
+  const done = spawnSync(binary, ["browse", join(archives, archive), "page", "-o", written(name), ...options], { encoding: "utf8" });
   assert.equal(done.status, 0, done.stderr);
   return pathToFileURL(written(name)).href;
 }
@@ -51,6 +55,16 @@ test("a page with some of the models says of the others that they are not there"
   await page.goto(`${page.url().split("#")[0]}#/model/stenosis`);
   await page.waitForSelector(".error");
   assert.match(await page.locator(".error").innerText(), /models\/stenosis\.hdf.*is not there/);
+  await page.close();
+});
+
+test("a model whose surface was not archived shows its lines, and finds nothing wrong", async () => {
+  const { page, problems } = await openPage(browser);
+  await page.goto(writePageOf("lean", "lean.html"));
+  await page.waitForSelector("table.models tbody tr");
+  assert.ok((await shownModel(page, "helix")).share > 0.001);
+  assert.doesNotMatch(await page.locator("body").innerText(), /cannot|there is no dataset/);
+  assert.deepEqual(problems, []);
   await page.close();
 });
 

@@ -51,6 +51,9 @@ function cohort() {
   writeFileSync(join(archives, "cohort.yaml"), "cohort: browser\nlength_unit: mm\nmodels: {table: models.tsv}\narchive: {directory: good}\n");
   const done = run(binary, ["run", "cohort.yaml"], { cwd: archives });
   if (done.status !== 1) throw new Error(`the run is to end with the one failure: ${done.status} ${done.stdout}${done.stderr}`);
+  const lean = "cohort: lean\nlength_unit: mm\nmodels: {list: [{id: helix, surface: helix.ply}]}\narchive: {directory: lean, fields: lines}\n";
+  writeFileSync(join(archives, "lean.yaml"), lean);
+  must(binary, ["run", "lean.yaml"], { cwd: archives });
 }
 
 /** A configuration may not have such ids; an archive from elsewhere may: its bytes are changed in place. */

@@ -97,7 +97,8 @@ export class ModelReader {
       voronoi: null,
       notes,
     };
-    model.surface = this.part("/surface", notes, () => this.surface(model));
+    // Of a surface that was not to be archived the group has the sizes alone.
+    if (attributes["fields"] !== "lines") model.surface = this.part("/surface", notes, () => this.surface(model));
     model.lines = this.part("/centerlines", notes, () => this.lines(model));
     model.ends = this.part("/endpoints", notes, () => this.ends());
     for (const name of ["branches", "bifurcations", "sections", "stenoses", "dilations", "loops"]) {
