@@ -79,7 +79,7 @@ void add_report(CLI::App& app, std::function<int()>& action) {
         ->check(CLI::Range(32, 1024))
         ->capture_default_str();
     verb->footer(
-        "The page needs nothing else: no scripts, nothing from outside. About 10 kB a model.\n"
+        "The page needs nothing else: no scripts, nothing from outside. About 5 kB a model.\n"
         "Exit status: 0 written, 1 the archive is damaged or the page cannot be written, 2 no such archive or column.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 }

@@ -20,13 +20,24 @@ from typing import Iterator
 import h5py
 import numpy as np
 
-__all__ = ["open", "Cohort", "Model", "Line"]
+__all__ = ["open", "Cohort", "Model", "Line", "Damaged"]
+
+
+class Damaged(ValueError):
+    """A file that cannot be read or contradicts itself: one sentence that says where. `lumenline validate-archive` says
+    all that is wrong with it."""
 
 
 def open(path) -> Cohort | Model:  # noqa: A001 - as h5py.File, for what the user thinks of as a file
     """An archive (its directory or `cohort.h5`) as a Cohort, or one model's file as a Model; both close in `with`."""
     path = pathlib.Path(path)
-    file = h5py.File(path / "cohort.h5" if path.is_dir() else path, "r")
+    path = path / "cohort.h5" if path.is_dir() else path
+    try:
+        file = h5py.File(path, "r")
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise Damaged(f"{path} is no complete HDF5 file: {_one_line(error)}") from None
     kind = _text(file.attrs.get("format", b""))
     if kind == "lumenline-cohort":
         return Cohort(file)
@@ -56,7 +67,7 @@ class Cohort(_Closing):
     @property
     def ids(self) -> list[str]:
         """Ids of all models, failed ones included, in the order of the table."""
-        return _strings(self.group["tables/models/id"])
+        return [str(id) for id in _read(self.group, "tables/models/id", "SO")]
 
     @property
     def tables(self) -> list[str]:
@@ -84,13 +95,19 @@ class Cohort(_Closing):
         import pandas
 
         group = self.group["tables"][name]
-        columns = {key: _column(group[key]) for key in group}
+        columns = {key: _read(group, key) for key in group}
+        lengths = {np.shape(values) for values in columns.values()}
+        if len(lengths) > 1 or any(len(shape) != 1 for shape in lengths):
+            raise Damaged(f"{_place(group)}: its columns are not of one length")
         frame = pandas.DataFrame(columns)
         frame.attrs["units"] = {key: _text(group[key].attrs.get("units", b"")) for key in group}
         frame.attrs["definitions"] = {key: _text(group[key].attrs.get("description", b"")) for key in group}
         if name == "models" or "id" not in frame:
             return frame
-        models = self.table("models").set_index("id")
+        models = self.table("models")
+        if "id" not in models or models["id"].dtype != object or frame["id"].dtype != object:
+            raise Damaged(f"{_place(self.group['tables'])}: {name} and models have no columns 'id' of text to join by")
+        models = models.set_index("id")
         joined = frame.join(models[[c for c in models if c not in frame]], on="id")
         joined.attrs = frame.attrs
         return joined
@@ -139,7 +156,7 @@ class Model(_Closing):
 
     def field(self, path: str) -> np.ndarray:
         """Any dataset, "surface/geodesic_distance" or "voronoi/ball_radius"; text as str."""
-        return _column(self.group[path])
+        return _read(self.group, path)
 
     def units(self, path: str) -> str:
         """Unit of a dataset, "length" resolved to the model's."""
@@ -155,9 +172,17 @@ class Model(_Closing):
         if "centerlines" not in self.group:
             return []
         group = self.group["centerlines"]
-        offsets = group["offsets"][:]
+        arrays = {k: _read(group, k) for k in group if isinstance(group[k], h5py.Dataset)}
+        for needed in ("offsets", "source", "target", "points", "radius", "abscissa"):
+            if needed not in arrays or arrays[needed].ndim == 0 or arrays[needed].dtype.kind not in "iuf":
+                raise Damaged(f"{_place(group)}: there is no array {needed!r} of numbers")
+        offsets = arrays.pop("offsets")
+        ascend = offsets.dtype.kind in "iu" and len(offsets) > 0 and offsets[0] == 0 and np.all(np.diff(offsets) >= 0)
+        if not ascend or len(arrays["source"]) != len(offsets) - 1 or len(arrays["target"]) != len(offsets) - 1:
+            raise Damaged(f"{_place(group)}: offsets, source and target do not describe lines")
         count = offsets[-1]
-        arrays = {k: group[k][:] for k in group if isinstance(group[k], h5py.Dataset) and k != "offsets"}
+        if any(len(arrays[k]) != count for k in ("points", "radius", "abscissa")):
+            raise Damaged(f"{_place(group)}: its points, radii and abscissae are not of one length")
         per_point = {k: v for k, v in arrays.items() if k not in ("source", "target", "loop") and len(v) == count}
         lines = []
         for i, (first, last) in enumerate(zip(offsets[:-1], offsets[1:])):
@@ -175,7 +200,7 @@ class Model(_Closing):
         for key, dataset in self.group[name].items():
             if not isinstance(dataset, h5py.Dataset):
                 continue
-            values = _column(dataset)
+            values = _read(self.group[name], key)
             if values.ndim == 2:
                 names = "xyz" if values.shape[1] == 3 else range(values.shape[1])
                 columns.update({f"{key}_{axis}": values[:, k] for k, axis in enumerate(names)})
@@ -183,6 +208,28 @@ class Model(_Closing):
                 columns[key] = values
         length = len(next(iter(columns.values()), ()))
         return pandas.DataFrame({k: v for k, v in columns.items() if len(v) == length})
+
+
+def _one_line(error) -> str:
+    return " ".join(str(error).split())
+
+
+def _place(group) -> str:
+    return f"{group.file.filename}: {group.name}"
+
+
+def _read(group, path: str, kinds: str = "") -> np.ndarray:
+    """Values of a dataset; `kinds`: of numpy, that it must be of."""
+    if path not in group or not isinstance(group[path], h5py.Dataset):
+        near = ", ".join(group) if "/" not in path else ""
+        raise KeyError(f"{_place(group)} has no dataset {path!r}" + (f"; it has {near}" if near else ""))
+    try:
+        values = _column(group[path])
+    except (OSError, TypeError, ValueError) as error:
+        raise Damaged(f"{_place(group[path])} cannot be read: {_one_line(error)}") from None
+    if kinds and values.dtype.kind not in kinds:
+        raise Damaged(f"{_place(group[path])} is of another type than it should be: {values.dtype}")
+    return values
 
 
 def _text(value) -> str:

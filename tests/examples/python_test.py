@@ -1,5 +1,6 @@
 """Tests of examples/python against an archive. Usage: python_test.py ARCHIVE"""
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -9,8 +10,58 @@ ARCHIVE = pathlib.Path(sys.argv.pop(1)).resolve()
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "python"
 sys.path.insert(0, str(EXAMPLES))
 
+import h5py  # noqa: E402
 import lumenline  # noqa: E402
 import numpy as np  # noqa: E402
+
+
+def datasets_of(file):
+    found = []
+    with h5py.File(file) as opened:
+        for top in opened:
+            if top != "models":
+                opened[top].visititems(lambda n, o: found.append(o.name) if isinstance(o, h5py.Dataset) else None)
+    return found
+
+
+def damage(file, path, harm):
+    with h5py.File(file, "r+") as opened:
+        values, attributes = opened[path][()], dict(opened[path].attrs)
+        del opened[path]
+        if harm == "remove" or (harm == "shorten" and np.size(values) < 1):
+            return
+        if harm == "retype":
+            values = np.zeros(np.shape(values), "i4" if values.dtype.kind == "S" else "S4")
+        opened[path] = values[:-1] if harm == "shorten" and np.ndim(values) else values
+        opened[path].attrs.update(attributes)
+
+
+def sentences(archive, path, test):
+    """Reads all that the reader has a word for. @returns how often it refused"""
+    refused = 0
+
+    def attempt(read):
+        nonlocal refused
+        try:
+            read()
+        except (lumenline.Damaged, KeyError, FileNotFoundError) as error:
+            test.assertNotIn("\n", str(error))
+            refused += 1
+
+    def reads(cohort):
+        yield lambda: cohort.ids
+        for table in ("models", "failures", "branches"):
+            yield lambda table=table: cohort.table(table)
+        yield lambda: cohort["wide"].lines()
+        yield lambda: cohort["wide"].surface()
+        yield lambda: cohort["wide"].table("diagnostics")
+        yield lambda: cohort["wide"].table("branches")
+        yield lambda: cohort["wide"].field(path)
+
+    with lumenline.open(archive) as cohort:
+        for read in reads(cohort):
+            attempt(read)
+    return refused
 
 
 class Reader(unittest.TestCase):
@@ -55,6 +106,27 @@ class Reader(unittest.TestCase):
         endpoints = self.cohort["wide"].table("endpoints")
         self.assertEqual(list(endpoints["role"]), ["inlet", "outlet"])
         self.assertIn("point_x", endpoints)
+
+    def test_damage_gives_one_sentence(self):
+        """Datasets in turn removed, cut short and of another type: what reads them works, or says one sentence."""
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder) / "copy"
+            shutil.copytree(ARCHIVE, copy)
+            refused = 0
+            of_use = {"models/wide.hdf": ["/centerlines/offsets", "/centerlines/points", "/surface/triangles"],
+                      "cohort.h5": ["/tables/models/id", "/tables/models/status"]}
+            for name in of_use:
+                for harm in ("remove", "shorten", "retype"):
+                    for path in datasets_of(ARCHIVE / name)[::37] + of_use[name]:
+                        damage(copy / name, path, harm)
+                        refused += sentences(copy, path, self)
+                        shutil.copy(ARCHIVE / name, copy / name)
+            self.assertGreater(refused, 15, "much of the damage is seen")
+            (copy / "cohort.h5").write_bytes((ARCHIVE / "cohort.h5").read_bytes()[:5000])
+            with self.assertRaisesRegex(lumenline.Damaged, "no complete HDF5 file"):
+                lumenline.open(copy)
+            with self.assertRaises(FileNotFoundError):
+                lumenline.open(copy / "nowhere")
 
     def test_one_file(self):
         with lumenline.open(ARCHIVE / "models" / "wide.hdf") as model:
