@@ -94,6 +94,10 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     CLI::App* verb = app.add_subcommand("browse", "Print what an archive holds");
     verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, or one model file")->required();
     verb->require_subcommand(0, 1);
+    verb->footer(
+        "Exit status: 0 done, 1 the archive is damaged or the output cannot be written, 2 no such archive, model, "
+        "dataset\n"
+        "or column.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 
     const auto add_verb = [&](const char* name, const char* help, What what) {
@@ -118,7 +122,8 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     add("tree", "groups and datasets of one model", What::kTree);
     CLI::App* get = add("get", "one dataset, or attribute PATH@name, as tab-separated text or for numpy", What::kGet);
     get->add_option("PATH", request->path, "dataset, as 'tree' names it")->required();
-    get->add_option("-o,--output", request->output, "file to write: numpy's format if its name ends in .npy, else text");
+    get->add_option("-o,--output", request->output,
+                    "file to write: numpy's format if its name ends in .npy, else text");
 
     add_verb("serve", "show the archive in a browser: table and plots of the cohort, every model in 3D", What::kServe)
         ->add_option("--port", request->serve.port, "of 127.0.0.1; 0 = 8417, or any free one if that is taken")
