@@ -51,8 +51,9 @@ TEST(Damage, EveryDatasetOfAModelWhateverReadsIt) {
         const bool is_table = entry.path.find('/', 1) != entry.path.npos && entry.part == Part::kBranches;
         const bool write_too = turn % (is_table ? 16 : 4) == 0;
         write_bytes(file, bytes);
-        if ((!is_table || turn % 4 == 0) && harm_dataset(file, entry.path, kHarms[turn % 3]))
+        if ((!is_table || turn % 4 == 0) && harm_dataset(file, entry.path, kHarms[turn % 3])) {
             EXPECT_EQ(read_model(archive, entry.path, write_too), "") << entry.path << " " << name_of(kHarms[turn % 3]);
+        }
         ++turn;
     }
 }
@@ -67,8 +68,9 @@ TEST(Damage, EveryDatasetOfAnIndexWhateverReadsIt) {
         const bool of_models = entry.path.starts_with("/tables/models/");
         if (!of_models && turn % 4 != 0) continue;  // the columns of the other tables are read alike
         write_bytes(file, bytes);
-        if (harm_dataset(file, entry.path, harm))
+        if (harm_dataset(file, entry.path, harm)) {
             EXPECT_EQ(read_index(archive, turn % 3 == 0), "") << entry.path << " " << name_of(harm);
+        }
     }
 }
 
