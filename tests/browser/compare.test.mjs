@@ -66,6 +66,23 @@ test("profiles can be shown by abscissa, of another quantity, of another line, t
   await changed(() => select("By").selectOption(""), "compare-together");
 });
 
+test("the profile of a branch by its label comes from the tables of the index", async () => {
+  const select = (label) => page.locator(".band").getByLabel(label, { exact: true });
+  const plot = page.locator(".band .plot");
+  const before = await picture(plot, "compare-before-branch");
+  await select("Of").selectOption({ label: "branch 1" });
+  await page.waitForFunction(() => document.querySelector(".band .count")?.textContent.includes("have this branch"));
+  assert.match(await page.locator(".band .count").innerText(), /^6 of 7 models have this branch$/);
+  assert.equal(await select("Quantity").inputValue(), "equivalent_diameter");
+  await page.waitForTimeout(400);
+  assert.ok(difference(before, await picture(plot, "compare-branch")) > 0.003);
+  assert.match(page.url(), /branch=1/);
+  await select("Of").selectOption("-1");
+  await page.waitForFunction(() => document.querySelector(".band .count")?.textContent.includes("have this line"));
+  await page.waitForSelector(".plot[data-ready=true]");
+  assert.equal(await select("Quantity").inputValue(), "radius");
+});
+
 test("another model takes its place", async () => {
   await page.getByRole("combobox", { name: "right model" }).selectOption("helix");
   await page.waitForURL(/compare\/torus\/helix/);

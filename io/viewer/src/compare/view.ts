@@ -1,19 +1,19 @@
-// Two models side by side, and below them one line's profile over the whole cohort with these two on top. Profiles come
-// in model by model, and the plot grows with them.
+// Two models side by side, and below them the profile of one line or one branch over the whole cohort with these two on
+// top. Profiles of lines come in model by model, and the plot grows with them; those of branches stand in the index.
 import type { App, View } from "../app";
-import type { Field, Model } from "../archive/protocol";
+import type { Field, Model, Table } from "../archive/protocol";
 import { columnOf, groupings, groupsOf } from "../cohort/rows";
 import { measureTitle } from "../cohort/points";
 import { unitText, labelOf } from "../archive/words";
 import { kMapNames, type MapName } from "../ui/colours";
 import { checkbox, choice, fill, h, slider } from "../ui/dom";
 import { BandPlot, type BandCurve } from "./band";
+import { branchCurves, branchLabels, sectionColumns } from "./branches";
 import { Panes, type CompareLook } from "./panes";
 
 interface Profiled {
-  path: string;
   key: string;
-  line: number;
+  of: string; // "line" or "branch"
   curves: BandCurve[];
   units: string;
   read: number;
@@ -22,6 +22,7 @@ interface Profiled {
 }
 
 const kLines = "/centerlines/";
+const kBranch = "branch:"; // before a label, among the choices of lines
 
 export class CompareView implements View {
   readonly root = h("main", { class: "compare" });
@@ -35,6 +36,9 @@ export class CompareView implements View {
   private readonly look: CompareLook;
   private quantity: string;
   private line: number;
+  private branch: string; // label; empty = a line
+  private labels: string[] = [];
+  private sections: Table | null = null;
   private by: string;
   private byShare: boolean;
   private profiled: Profiled | null = null;
@@ -53,6 +57,7 @@ export class CompareView implements View {
     };
     this.quantity = state.get("quantity") ?? "radius";
     this.line = Number(state.get("line") ?? -1);
+    this.branch = state.get("branch") ?? "";
     this.byShare = state.get("share") !== "false";
     const groups = groupings(app.cohort!.models).map((column) => column.name);
     this.by = state.get("by") ?? ["group", ...groups].find((name) => groups.includes(name)) ?? "";
@@ -93,6 +98,8 @@ export class CompareView implements View {
   }
 
   private async load(): Promise<void> {
+    // An archive without branches, or one model's file, has no such table.
+    this.labels = await this.app.client.call("table", "branches").then(branchLabels, () => []);
     await Promise.all(([0, 1] as const).map(async (side) => {
       try {
         const model = await this.app.client.call("model", side === 0 ? this.a : this.b);
@@ -151,27 +158,62 @@ export class CompareView implements View {
   private fillBand(): void {
     const { app } = this;
     const fields = this.fields((model) => model.lines?.fields.filter((field) => field.kind === "scale"));
-    const quantities = fields.length > 0 ? fields.map((field) => [field.key, measureTitle(field.label, field.units)] as const) : [[this.quantity, labelOf(this.quantity)] as const];
+    const sectional = this.sections ? sectionColumns(this.sections).map((each) => [each.name, measureTitle(each.label, each.units)] as const) : [];
+    const linear = fields.map((field) => [field.key, measureTitle(field.label, field.units)] as const);
+    const known = this.branch ? sectional : linear;
+    const quantities = known.length > 0 ? known : [[this.quantity, labelOf(this.quantity)] as const];
     const most = Math.max(1, ...this.models.map((model) => (model?.lines ? model.lines.offsets.length - 1 : 0)));
-    const lines = [["-1", "the longest line"] as const, ...Array.from({ length: Math.min(most, 200) }, (_, l) => [String(l), `line ${l}`] as const)];
+    const lines = [
+      ["-1", "the longest line"] as const,
+      ...Array.from({ length: Math.min(most, 200) }, (_, l) => [String(l), `line ${l}`] as const),
+      ...this.labels.slice(0, 500).map((label) => [kBranch + label, `branch ${label}`] as const),
+    ];
     const groups = [["", "all together"] as const, ...groupings(app.cohort!.models).map((column) => [column.name, column.label] as const)];
     fill(this.band,
       h("h2", {}, "Over the cohort"),
       choice("Quantity", quantities, this.quantity, (value) => ((this.quantity = value), void this.profile())).root,
-      choice("Line", lines, String(this.line), (value) => ((this.line = Number(value)), void this.profile())).root,
+      choice("Of", lines, this.branch ? kBranch + this.branch : String(this.line), (value) => this.choose(value)).root,
       choice("By", groups, this.by, (value) => ((this.by = value), this.drawBand())).root,
       checkbox("By share of length", this.byShare, (on) => ((this.byShare = on), this.drawBand())),
       h("span", { class: "grow" }), this.said);
   }
 
+  private choose(value: string): void {
+    const branch = value.startsWith(kBranch) ? value.slice(kBranch.length) : "";
+    const otherKind = Boolean(branch) !== Boolean(this.branch);
+    if (otherKind) this.quantity = branch ? "equivalent_diameter" : "radius";
+    this.branch = branch;
+    if (!branch) this.line = Number(value);
+    if (otherKind) this.fillBand();
+    void this.profile();
+  }
+
+  private async profileOfBranch(): Promise<void> {
+    const profiled: Profiled = { key: this.quantity, of: "branch", curves: [], units: "", read: 0, failed: 0, done: true };
+    this.profiled = profiled;
+    const first = !this.sections;
+    try {
+      this.sections ??= await this.app.client.call("table", "sections");
+    } catch (error) {
+      fill(this.said, error instanceof Error ? error.message : String(error));
+      return;
+    }
+    if (this.profiled !== profiled || this.gone) return;
+    Object.assign(profiled, branchCurves(this.sections, this.branch, this.quantity));
+    if (first) this.fillBand();
+    this.drawBand();
+  }
+
   private async profile(): Promise<void> {
     this.cancel();
+    this.cancel = () => {};
     this.remember();
+    if (this.branch) return this.profileOfBranch();
     const ids = this.app.ids();
     const order = [...new Set([this.a, this.b, ...ids])].filter((id) => ids.includes(id));
-    const profiled: Profiled = { path: kLines + this.quantity, key: this.quantity, line: this.line, curves: [], units: "", read: 0, failed: 0, done: false };
+    const profiled: Profiled = { key: this.quantity, of: "line", curves: [], units: "", read: 0, failed: 0, done: false };
     this.profiled = profiled;
-    const { answer, cancel } = this.app.client.stream("profiles", { ids: order, path: profiled.path, line: this.line }, (part) => {
+    const { answer, cancel } = this.app.client.stream("profiles", { ids: order, path: kLines + this.quantity, line: this.line }, (part) => {
       const curve = part as { id: string; x?: Float32Array; y?: Float32Array; units?: string };
       profiled.read += 1;
       if (curve.x && curve.y) {
@@ -211,11 +253,11 @@ export class CompareView implements View {
     const unit = this.models.find((model) => model)?.unit ?? "";
     this.plot.show({
       curves: profiled.curves, groups: groups.names, chosen: [...new Set([this.a, this.b])], byShare: this.byShare,
-      xTitle: this.byShare ? "Share of the line's length" : `Abscissa${unitText(unit) ? ` [${unit}]` : ""}`,
+      xTitle: this.byShare ? `Share of the ${profiled.of}'s length` : `Abscissa${unitText(unit) ? ` [${unit}]` : ""}`,
       yTitle: measureTitle(labelOf(profiled.key), profiled.units),
     });
     const missing = profiled.failed > 0 ? `, ${profiled.failed} cannot be read` : "";
-    fill(this.said, profiled.done ? `${profiled.curves.length} of ${ids.length} models have this line${missing}` : `${profiled.read} of ${ids.length} models read …`);
+    fill(this.said, profiled.done ? `${profiled.curves.length} of ${ids.length} models have this ${profiled.of}${missing}` : `${profiled.read} of ${ids.length} models read …`);
     this.plot.drawn.root.dataset.ready = String(profiled.done);
   }
 
@@ -223,7 +265,7 @@ export class CompareView implements View {
     const { look } = this;
     const query = new URLSearchParams({
       wallBy: look.wallBy, linesBy: look.linesBy, opacity: String(look.opacity), map: look.map, trueSize: String(look.trueSize),
-      quantity: this.quantity, line: String(this.line), by: this.by, share: String(this.byShare), cam: this.panes.looking,
+      quantity: this.quantity, line: String(this.line), branch: this.branch, by: this.by, share: String(this.byShare), cam: this.panes.looking,
     });
     return `#/compare/${encodeURIComponent(a)}/${encodeURIComponent(b)}?${query.toString()}`;
   }
