@@ -10,6 +10,7 @@
 
 #include "engine/core/index_tables.h"
 #include "tests/branches/shapes.h"
+#include "tests/condition/shapes.h"
 #include "tests/stages/support.h"
 
 namespace lumenline {
@@ -40,22 +41,6 @@ Vec3 turned_back(Vec3 p) {
 }
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
-TriangleSoup mapped(TriangleSoup soup, const Map& map, std::uint32_t seed) {
-    for (Vec3& p : soup.points) p = map(p);
-    if (seed == 0) return soup;
-    std::mt19937 random(seed);
-    std::vector<std::uint32_t> place(soup.points.size());
-    for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::uint32_t>(i);
-    std::shuffle(place.begin(), place.end(), random);
-    std::vector<Vec3> points(place.size());
-    for (std::size_t i = 0; i < place.size(); ++i) points[place[i]] = soup.points[i];
-    soup.points = std::move(points);
-    for (auto& t : soup.triangles)
-        for (std::uint32_t& corner : t) corner = place[corner];
-    std::shuffle(soup.triangles.begin(), soup.triangles.end(), random);
-    return soup;
-}
-
 /// A tree phantom of four leaves through the pipeline, mapped and with some of its outlets.
 Branches branches_of_tree(
     const TreePhantom& tree, const Map& map = [](Vec3 p) { return p; }, std::uint32_t seed = 0,
@@ -66,7 +51,8 @@ Branches branches_of_tree(
         if (branch.open_start) options.endpoints.inlets.push_back(map(branch.start));
         if (branch.open_end && b != left_out) options.endpoints.outlets.push_back(map(branch.end));
     }
-    const ModelRecord record = test::run_pipeline(mapped(to_soup(tree), map, seed), options);
+    const TriangleSoup soup = testing::mapped(to_soup(tree), map);
+    const ModelRecord record = test::run_pipeline(seed == 0 ? soup : testing::shuffled(soup, seed), options);
     EXPECT_TRUE(record.branches);
     return record.branches ? *record.branches : Branches();
 }

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "tests/branches/shapes.h"
+#include "tests/condition/shapes.h"
 #include "tests/stages/support.h"
 
 namespace lumenline {
@@ -37,18 +37,7 @@ TriangleSoup moved(const TreePhantom& tree, double angle, Vec3 shift, double sca
             (Vec3{q.x, std::cos(angle) * q.y - std::sin(angle) * q.z, std::sin(angle) * q.y + std::cos(angle) * q.z} +
              shift);
     }
-    if (!shuffle) return soup;
-    std::mt19937 random(5);
-    std::vector<std::uint32_t> place(soup.points.size());
-    for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::uint32_t>(i);
-    std::shuffle(place.begin(), place.end(), random);
-    std::vector<Vec3> points(place.size());
-    for (std::size_t i = 0; i < place.size(); ++i) points[place[i]] = soup.points[i];
-    soup.points = std::move(points);
-    for (auto& t : soup.triangles)
-        for (std::uint32_t& corner : t) corner = place[corner];
-    std::shuffle(soup.triangles.begin(), soup.triangles.end(), random);
-    return soup;
+    return shuffle ? testing::shuffled(soup, 5) : soup;
 }
 
 /// The pipeline, with the largest opening as the inlet.
