@@ -42,15 +42,15 @@ std::string cohort_name(const ArchiveFile& index) {
 class Provenance {
 public:
     void add(const ArchiveFile& model) {
-        note(program_, model, names::kProgram);
-        note(commit_, model, names::kCommit);
-        note(hdf5_, model, names::kHdf5Version);
+        note(facts_.program, model, names::kProgram);
+        note(facts_.commit, model, names::kCommit);
+        note(facts_.hdf5, model, names::kHdf5Version);
         std::istringstream options(model.strings(names::kOptions.path).at(0));
         for (std::string line; std::getline(options, line);) {
             const std::size_t at = line.find('=');
             if (at == line.npos) continue;
             const std::string key = line.substr(0, at), value = line.substr(at + 1);
-            const auto [entry, is_new] = options_.try_emplace(key, value);
+            const auto [entry, is_new] = facts_.options.try_emplace(key, value);
             if (!is_new && entry->second != value) entry->second = kDiffers;
         }
         std::set<std::pair<std::string, std::string>> own;
@@ -58,20 +58,11 @@ public:
                                        severity = model.strings(names::kSeverity.path);
         for (std::size_t k = 0; k < std::min(code.size(), severity.size()); ++k) own.emplace(code[k], severity[k]);
         for (const auto& finding : own) ++findings_[finding];
-        characterized_ = characterized_ || model.has(names::kGeodesic.path);
-        branched_ = branched_ || model.has("/branches");
+        facts_.characterized = facts_.characterized || model.has(names::kStatisticsGeodesic.path);
+        facts_.branched = facts_.branched || model.has("/branches");
     }
 
-    [[nodiscard]] MethodsFacts facts() const {
-        MethodsFacts facts;
-        facts.program = program_;
-        facts.commit = commit_;
-        facts.hdf5 = hdf5_;
-        facts.options = options_;
-        facts.characterized = characterized_;
-        facts.branched = branched_;
-        return facts;
-    }
+    [[nodiscard]] const MethodsFacts& facts() const { return facts_; }
 
     [[nodiscard]] std::vector<ReportFinding> findings() const {
         std::vector<ReportFinding> all;
@@ -89,10 +80,8 @@ private:
             known = "several versions";
     }
 
-    std::string program_, commit_, hdf5_;
-    std::map<std::string, std::string> options_;
+    MethodsFacts facts_;  ///< without counts
     std::map<std::pair<std::string, std::string>, std::size_t> findings_;
-    bool characterized_ = false, branched_ = false;
 };
 
 void look_at_model(const std::filesystem::path& archive, std::size_t size, const std::string& unit, ReportModel& model,
