@@ -27,8 +27,7 @@ constexpr const char* kTables = "/tables/";
 struct Widths {
     std::size_t id = 0, kind = 0, role = 0, label = 0;
 
-    [[nodiscard]] std::size_t of(const Column& column) const {
-        if (column.kind != ColumnKind::kText) return 0;
+    std::size_t& of(const Column& column) {
         return column.name == "id" ? id : column.name == "kind" ? kind : column.name == "role" ? role : label;
     }
 };
@@ -51,7 +50,8 @@ public:
         for (std::size_t t = 0; t < tables.size(); ++t) {
             add_id(tables[t], "");
             std::vector<std::size_t> widths;
-            for (const Column& column : tables[t].columns) widths.push_back(widths_.of(column));
+            for (const Column& column : tables[t].columns)
+                widths.push_back(column.kind == ColumnKind::kText ? widths_.of(column) : 0);
             streams.emplace_back(writer, kTables + std::string(tables[t].name), tables[t], count_[t], widths);
         }
         for (std::size_t m = 0; m < models_.size(); ++m) carry_over(m, streams);
@@ -69,18 +69,24 @@ private:
             // What a model left that could not be written is of an earlier run.
             if ((failure && failure->stage == Stage::kArchive) || !std::filesystem::exists(file, error)) continue;
             try {
-                TableOutline outline = read_outline(ArchiveFile(file));
-                if (std::all_of(outline.rows.begin(), outline.rows.end(), [](auto n) { return n == 0; })) continue;
-                for (std::size_t t = 0; t < count_.size(); ++t) count_[t] += outline.rows[t];
-                widths_.kind = std::max(widths_.kind, outline.kind_width);
-                widths_.role = std::max(widths_.role, outline.role_width);
-                trees_[m] = std::move(outline.tree);
-                widen(widths_.id, models_[m].identity.id);
-                rows_[m] = std::move(outline.rows);
+                look_at(read_index_tables(ArchiveFile(file)), m);
             } catch (const ArchiveError& damage) {
                 unread_.emplace_back(damage.what());
             }
         }
+    }
+
+    void look_at(const std::vector<Table>& tables, std::size_t m) {
+        if (std::all_of(tables.begin(), tables.end(), [](const Table& t) { return t.rows() == 0; })) return;
+        for (std::size_t t = 0; t < tables.size(); ++t) {
+            rows_[m].push_back(tables[t].rows());
+            count_[t] += tables[t].rows();
+            for (const Column& column : tables[t].columns)
+                if (column.kind == ColumnKind::kText)
+                    for (const std::string& text : column.texts) widen(widths_.of(column), text);
+        }
+        widen(widths_.id, models_[m].identity.id);
+        trees_[m] = branch_tree(tables.front());
     }
 
     void carry_over(std::size_t m, std::vector<TableStream>& streams) {
@@ -88,6 +94,10 @@ private:
         std::vector<Table> tables;
         try {
             tables = read_index_tables(ArchiveFile(path(m)));
+            for (std::size_t t = 0; t < tables.size(); ++t)
+                if (tables[t].rows() != rows_[m][t])
+                    throw ArchiveError("cannot use '" + path(m).string() +
+                                       "': it was replaced while the index was made; run 'lumenline merge'");
         } catch (const ArchiveError& damage) {
             unread_.emplace_back(damage.what());
             tables = missing_rows(rows_[m]);  // room was made for them

@@ -11,9 +11,11 @@
 #include <array>
 #include <system_error>
 
+#include "engine/core/index_tables.h"
 #include "engine/core/text.h"
 #include "engine/core/version.h"
 #include "io/archive/line_names.h"
+#include "io/archive/packed_rows.h"
 #include "io/archive/tables.h"
 #include "io/archive/vtkhdf.h"
 #include "io/archive/writer.h"
@@ -289,9 +291,13 @@ void write_all(Writer& writer, const ModelRecord& record, const ArchiveOptions& 
         write_character(writer, record, options);
         write_statistics(writer, *record.character);
     }
-    if (record.branches && record.surface && record.centerlines)
+    const bool has_branches = record.branches && record.surface && record.centerlines;
+    if (has_branches)
         hdf::write_branches(writer, *record.branches, record.surface->site_count(), record.centerlines->points.size(),
                             options);
+    if (record.endpoints)
+        writer.column(names::kIndexRows,
+                      hdf::pack_rows(index_tables(has_branches ? *record.branches : Branches(), *record.endpoints)));
     write_diagnostics(writer, record.diagnostics);
     write_vtkhdf(writer, record, options.fields != ArchiveFields::kLines);
     write_facts(writer, record.facts, record.options);

@@ -1,12 +1,11 @@
 #include "io/archive/model_tables.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "engine/core/index_tables.h"
 #include "io/archive/branch_names.h"
 #include "io/archive/line_names.h"
+#include "io/archive/packed_rows.h"
 #include "io/archive/tables.h"
 
 namespace lumenline::hdf {
@@ -35,23 +34,6 @@ void read_branches_of_ends(const ArchiveFile& file, Table& table) {
     }
 }
 
-std::size_t longest(const std::vector<std::string>& texts) {
-    std::size_t length = 0;
-    for (const std::string& text : texts) length = std::max(length, text.size());
-    return length;
-}
-
-std::size_t rows_of_table(const ArchiveFile& file, const Table& table) {
-    if (!file.has(group_of(table))) return 0;
-    for (const Column& column : table.columns)
-        if (const std::string path = group_of(table) + "/" + column.name; file.has(path)) {
-            const std::vector<std::uint64_t> shape = file.shape(path);
-            if (shape.size() != 1) damaged(file, path + " has rows of several numbers");
-            return shape[0];
-        }
-    return 0;
-}
-
 }  // namespace
 
 Endpoints read_endpoints(const ArchiveFile& file) {
@@ -77,7 +59,7 @@ Endpoints read_endpoints(const ArchiveFile& file) {
     return endpoints;
 }
 
-std::vector<Table> read_index_tables(const ArchiveFile& file) {
+std::vector<Table> read_columns_of_index_tables(const ArchiveFile& file) {
     const Endpoints ends = file.has(names::kEndpointRole.path) ? read_endpoints(file) : Endpoints();
     std::vector<Table> tables = index_tables(Branches(), ends);
     for (std::size_t t = 0; t + 1 < tables.size(); ++t) read_table(file, group_of(tables[t]), tables[t]);
@@ -85,25 +67,12 @@ std::vector<Table> read_index_tables(const ArchiveFile& file) {
     return tables;
 }
 
-TableOutline read_outline(const ArchiveFile& file) {
-    TableOutline outline;
-    std::vector<Table> tables = index_tables(Branches(), Endpoints());
-    for (std::size_t t = 0; t + 1 < tables.size(); ++t) outline.rows.push_back(rows_of_table(file, tables[t]));
-    outline.rows.push_back(0);
-    if (file.has(names::kEndpointRole.path)) {
-        const std::vector<std::string> roles = file.strings(names::kEndpointRole.path);
-        outline.rows.back() = roles.size();
-        outline.role_width = longest(roles);
-        outline.kind_width = longest(file.strings(names::kEndpointKind.path));
+std::vector<Table> read_index_tables(const ArchiveFile& file) {
+    if (file.has(names::kIndexRows.path)) {
+        std::vector<Table> tables = index_tables(Branches(), Endpoints());
+        if (unpack_rows(file.bytes(names::kIndexRows.path), tables)) return tables;
     }
-    constexpr std::array<std::string_view, 8> kOfTree{"parent", "length",      "radius_mean", "order_margin",
-                                                      "chord",  "direction_x", "direction_y", "direction_z"};
-    Table& branches = tables.front();
-    std::erase_if(branches.columns,
-                  [&](const Column& c) { return std::find(kOfTree.begin(), kOfTree.end(), c.name) == kOfTree.end(); });
-    if (outline.rows.front() > 0 && read_table(file, group_of(branches), branches))
-        outline.tree = branch_tree(branches);
-    return outline;
+    return read_columns_of_index_tables(file);
 }
 
 }  // namespace lumenline::hdf

@@ -76,6 +76,9 @@ inline constexpr Field kEndpointRole{"/endpoints/role", "1", "inlet (root of the
 inline constexpr Field kAnchor{"/endpoints/anchor", "length", "point on the Voronoi complex where lines start or end"};
 inline constexpr Field kAnchorRadius{"/endpoints/anchor_radius", "length", "ball radius at the anchor"};
 
+inline constexpr Field kIndexRows{"/index_rows", "1",
+    "copy of the rows that this model has in the tables of an index, in one piece: for making the index alone"};
+
 inline constexpr const char* kVoronoi = "/voronoi";
 inline constexpr Field kVertices{"/voronoi/vertices", "length",
     "inner Voronoi vertices: centres of maximal empty balls"};

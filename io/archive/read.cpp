@@ -211,6 +211,13 @@ std::vector<double> ArchiveFile::numbers(const std::string& path) const {
     });
 }
 
+std::string ArchiveFile::bytes(const std::string& path) const {
+    return impl_->guarded([&] {
+        const Values values = impl_->open(path);
+        return values.bytes(0, values.rows());
+    });
+}
+
 std::vector<std::string> ArchiveFile::strings(const std::string& path) const {
     return impl_->guarded([&] {
         const Values values = impl_->open(path);

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& path) const;
     /// Values of a dataset of numbers, row by row.
     [[nodiscard]] std::vector<double> numbers(const std::string& path) const;
+    /// Values of a dataset of numbers in the bytes of the file's type, little-endian.
+    [[nodiscard]] std::string bytes(const std::string& path) const;
     /// Values of a dataset of text.
     [[nodiscard]] std::vector<std::string> strings(const std::string& path) const;
     /// Text of an attribute; empty optional if the object has no such attribute.

@@ -66,6 +66,8 @@ const Row kRows[] = {
     {names::kAnchor, "E, 3", kDouble, kEndpoints, finite()},
     {names::kAnchorRadius, "E", kDouble, kEndpoints, positive()},
 
+    {names::kIndexRows, "Y", kByte, kEndpoints, {}},
+
     {names::kVertices, "V, 3", kDouble, kVoronoi, finite()},
     {names::kBallRadius, "V", kDouble, kVoronoi, positive()},
     {names::kPolygonOffsets, "P+1", kInt, kVoronoi, offsets('I')},

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/index_tables.h"
 #include "engine/core/text.h"
 #include "io/archive/branch_names.h"
 #include "io/archive/inspection.h"
 #include "io/archive/line_names.h"
+#include "io/archive/model_tables.h"
+#include "io/archive/packed_rows.h"
 
 namespace lumenline {
 
@@ -158,6 +161,39 @@ void check_graph(Inspection& inspection) {
     }
 }
 
+/// Can the column be compared: is all that it is read from as specified?
+bool is_sound_column(const Inspection& inspection, const Table& table, const Column& column) {
+    if (std::string_view(table.name) != "endpoints")
+        return inspection.is_sound("/" + std::string(table.name) + "/" + column.name);
+    const bool has_graph = inspection.file().has(names::kEdges.path);
+    return inspection.are_sound(
+               {&names::kEndpointRole, &names::kEndpointKind, &names::kEndpointPoint, &names::kEndpointRadius}) &&
+           (!has_graph || inspection.are_sound({&names::kEdges, &names::kNodeEndpoint}));
+}
+
+/// The copy of the rows says what the columns say.
+void check_index_rows(Inspection& inspection) {
+    const char* const path = names::kIndexRows.path;
+    if (!inspection.is_sound(path)) return;
+    const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+    std::vector<Table> packed = index_tables(Branches(), Endpoints()), read;
+    try {
+        if (!hdf::unpack_rows(inspection.file().bytes(path), packed))
+            return inspection.report(path, "its sum is not that of its bytes");
+        read = hdf::read_columns_of_index_tables(inspection.file());
+    } catch (const ArchiveError&) {
+        return;  // what cannot be read was reported with the columns
+    }
+    for (std::size_t t = 0; t < packed.size(); ++t)
+        for (std::size_t c = 0; c < packed[t].columns.size(); ++c) {
+            const Column &copy = packed[t].columns[c], &column = read[t].columns[c];
+            if (is_sound_column(inspection, read[t], column) &&
+                (copy.texts != column.texts || !std::equal(copy.numbers.begin(), copy.numbers.end(),
+                                                           column.numbers.begin(), column.numbers.end(), same)))
+                return inspection.report(path, "it differs from the column " + column.name + " of /" + read[t].name);
+        }
+}
+
 }  // namespace
 
 void check_lines(Inspection& inspection) {
@@ -167,6 +203,7 @@ void check_lines(Inspection& inspection) {
     check_ends(inspection);
     check_map(inspection);
     check_graph(inspection);
+    check_index_rows(inspection);
 }
 
 }  // namespace lumenline

@@ -10,6 +10,7 @@
 #include "io/archive/index.h"
 #include "io/archive/model_file.h"
 #include "io/archive/model_tables.h"
+#include "io/archive/packed_rows.h"
 #include "io/archive/read.h"
 #include "io/archive/table_stream.h"
 #include "tests/archive/sample_record.h"
@@ -79,6 +80,51 @@ TEST(TableStream, BlocksMakeTheSameTableAsOneWrite) {
     EXPECT_EQ(bytes_of(directory / "parts"), bytes_of(directory / "whole"));
     EXPECT_THROW(write("more", kRows - 1, kRows), hdf::Inconsistent);
     EXPECT_THROW(write("less", kRows + 1, kRows), hdf::Inconsistent);
+}
+
+TEST(PackedRows, ComeBackAsTheyWereAndAsTheColumnsTellThem) {
+    const auto directory = fresh_directory("packed_rows");
+    for (const ModelRecord& record : {sample_record("a"), failed_record("b")}) {
+        write_model_file(directory / "m.hdf", record);
+        const ArchiveFile file(directory / "m.hdf");
+        const std::vector<Table> packed = hdf::read_index_tables(file),
+                                 columns = hdf::read_columns_of_index_tables(file);
+        for (std::size_t t = 0; t < packed.size(); ++t)
+            for (std::size_t c = 0; c < packed[t].columns.size(); ++c) {
+                const Column &a = packed[t].columns[c], &b = columns[t].columns[c];
+                EXPECT_EQ(a.texts, b.texts) << a.name;
+                ASSERT_EQ(a.numbers.size(), b.numbers.size()) << a.name;
+                for (std::size_t k = 0; k < a.numbers.size(); ++k)
+                    EXPECT_TRUE(a.numbers[k] == b.numbers[k] || (std::isnan(a.numbers[k]) && std::isnan(b.numbers[k])));
+            }
+        EXPECT_EQ(packed.back().rows(), record.endpoints ? record.endpoints->size() : 0U);
+    }
+}
+
+TEST(PackedRows, DamagedOnesAndThoseOfOtherColumnsAreNotTaken) {
+    const ModelRecord record = sample_record();
+    std::vector<Table> tables = index_tables(*record.branches, *record.endpoints), read = tables;
+    const std::vector<std::uint8_t> packed = hdf::pack_rows(tables);
+    const std::string whole(packed.begin(), packed.end());
+    ASSERT_TRUE(hdf::unpack_rows(whole, read));
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+        std::string damaged = whole;
+        damaged[k] = static_cast<char>(damaged[k] ^ 0x10);
+        ASSERT_FALSE(hdf::unpack_rows(damaged, read)) << k;
+        ASSERT_FALSE(hdf::unpack_rows(whole.substr(0, k), read)) << k;
+    }
+    EXPECT_FALSE(hdf::unpack_rows(whole + '\0', read));
+    tables[1].columns[2].name += "_renamed";
+    EXPECT_FALSE(hdf::unpack_rows(whole, tables));
+    // Sound sums do not make sound contents.
+    tables = index_tables(*record.branches, *record.endpoints);
+    for (const double value : {-2.0, 0.5, 3e9, std::nan("")}) {
+        std::vector<Table> wrong = tables;
+        for (Column& column : wrong.front().columns)
+            if (column.kind == ColumnKind::kIndex) column.numbers.front() = value;
+        const std::vector<std::uint8_t> bytes = hdf::pack_rows(wrong);
+        EXPECT_FALSE(hdf::unpack_rows(std::string(bytes.begin(), bytes.end()), read)) << value;
+    }
 }
 
 TEST(IndexRows, ManyModelsHaveTheRowsOfEachInOrder) {
@@ -153,10 +199,11 @@ TEST(IndexRows, DamagedAndMissingFilesCostTheirOwnRowsAlone) {
     std::filesystem::remove(model_path(directory, "a"));
     std::ofstream(model_path(directory, "b"), std::ios::binary) << "no HDF5";
     {
-        // One column is not as long as the others: seen only when the rows are read.
+        // A file whose rows can only be read from columns, one of which is not as long as the others.
         const hdf::Handle file(H5Fopen(model_path(directory, "c").c_str(), H5F_ACC_RDWR, hdf::file_access().get()),
                                H5Fclose, "open");
-        hdf::checked(H5Ldelete(file.get(), "/sections/perimeter", H5P_DEFAULT), "delete");
+        for (const char* path : {"/index_rows", "/sections/perimeter"})
+            hdf::checked(H5Ldelete(file.get(), path, H5P_DEFAULT), path);
         const hsize_t two = 2;
         const hdf::Handle made(H5Dcreate2(file.get(), "/sections/perimeter", H5T_IEEE_F64LE, hdf::extent(1, &two).get(),
                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -167,11 +214,25 @@ TEST(IndexRows, DamagedAndMissingFilesCostTheirOwnRowsAlone) {
     EXPECT_NE(unread[0].find("b.hdf"), std::string::npos) << unread[0];
     EXPECT_NE(unread[1].find("c.hdf"), std::string::npos) << unread[1];
     const ArchiveFile index(directory / "cohort.h5");
-    EXPECT_EQ(index.strings("/tables/branches/id"), (Strings{"c", "c", "c", "d", "d", "d"}));
-    const std::vector<double> length = index.numbers("/tables/branches/length"),
-                              parent = index.numbers("/tables/branches/parent");
+    EXPECT_EQ(index.strings("/tables/branches/id"), (Strings{"d", "d", "d"}));
+}
+
+TEST(IndexRows, AFileReplacedMeanwhileHasMissingRows) {
+    const auto directory = sample_archive({sample_record("a"), sample_record("b")}, "index_replaced");
+    const std::vector<ModelSummary> models = list_models(directory);
+    // The labels are asked for between the two looks at each file.
+    const BranchLabeller label = [&](std::span<const BranchTree> trees) {
+        write_model_file(model_path(directory, "a"), failed_record("a"));
+        return std::vector<BranchLabels>(trees.size());
+    };
+    const Strings unread = write_index(directory, models, "", "", label);
+    ASSERT_EQ(unread.size(), 1U);
+    EXPECT_NE(unread[0].find("was replaced while the index was made"), std::string::npos) << unread[0];
+    const ArchiveFile index(directory / "cohort.h5");
+    EXPECT_EQ(index.strings("/tables/branches/id"), (Strings{"a", "a", "a", "b", "b", "b"}));
+    const std::vector<double> length = index.numbers("/tables/branches/length");
     EXPECT_TRUE(std::isnan(length[0]));
-    EXPECT_EQ(parent[1], -1);
+    EXPECT_EQ(index.numbers("/tables/branches/parent")[1], -1);
     EXPECT_FALSE(std::isnan(length[3]));
 }
 

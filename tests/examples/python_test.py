@@ -18,9 +18,8 @@ import numpy as np  # noqa: E402
 def datasets_of(file):
     found = []
     with h5py.File(file) as opened:
-        for top in opened:
-            if top != "models":
-                opened[top].visititems(lambda n, o: found.append(o.name) if isinstance(o, h5py.Dataset) else None)
+        # Links to other files are not followed.
+        opened.visititems(lambda n, o: found.append(o.name) if isinstance(o, h5py.Dataset) else None)
     return found
 
 
