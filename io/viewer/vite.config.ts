@@ -23,6 +23,34 @@ function policy(script: string, style: string): string {
   ].join("; ");
 }
 
+let library: Uint8Array<ArrayBuffer> | undefined;
+
+/** Takes the WebAssembly out of h5wasm's script, and lets src/archive/library.ts make the instance. */
+function libraryApart(): Plugin {
+  const once = (code: string, what: string | RegExp, by: string): string => {
+    const parts = code.split(what);
+    if (parts.length !== 2) throw new Error(`h5wasm is not as it was: ${what} is there ${parts.length - 1} times`);
+    return parts.join(by);
+  };
+  return {
+    name: "library-apart",
+    enforce: "pre",
+    transform(code, id) {
+      if (id.endsWith("h5wasm/dist/esm/hdf5_hl.js")) {
+        const hook = `import { instantiateWasm } from ${JSON.stringify(resolve("src/archive/library.ts"))};\n`;
+        return hook + once(code, "ModuleFactory({ noInitialRun: true })", "ModuleFactory({ noInitialRun: true, instantiateWasm })");
+      }
+      if (!id.endsWith("h5wasm/dist/esm/hdf5_util.js")) return null;
+      const decode = /function binaryDecode\(bin\)\{.*?return o\}/s.exec(code)?.[0];
+      const find = /function findWasmBinary\(\)\{.*?\}(?=function getBinarySync)/s.exec(code)?.[0];
+      if (!decode || !find) throw new Error("h5wasm is not as it was: its WebAssembly is not found");
+      library = new Function(`${decode};${find};return findWasmBinary()`)() as Uint8Array<ArrayBuffer>;
+      if (!WebAssembly.validate(library)) throw new Error("h5wasm is not as it was: its WebAssembly is none");
+      return once(code, find, "function findWasmBinary(){}");
+    },
+  };
+}
+
 function onePage(): Plugin {
   return {
     name: "one-page",
@@ -38,6 +66,9 @@ function onePage(): Plugin {
       }
       const page = bundle["index.html"];
       if (page?.type !== "asset" || !script || !style) return this.error("script, style or page is missing");
+      if (!library) return this.error("the HDF5 library is missing");
+      const packed = Buffer.from(gzipSync(library, { level: 9, mtime: 0 })).toString("base64");
+      const block = `<script type="application/octet-stream" id="hdf5-library">${packed}</script>`;
       // What ends a script element or begins a comment in it can stand in strings and patterns only.
       script = script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
       style = style.trim();
@@ -47,7 +78,7 @@ function onePage(): Plugin {
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
         .replace("<meta charset=\"utf-8\" />", () => `<meta charset="utf-8" />\n    ${head}`)
-        .replace(/\s*<\/body>/, () => `\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
+        .replace(/\s*<\/body>/, () => `\n    ${block}\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
       for (const name of Object.keys(bundle)) delete bundle[name];
       const folder = resolve(process.env.LUMENLINE_PAGE_FOLDER ?? "built");
       mkdirSync(folder, { recursive: true });
@@ -59,7 +90,7 @@ function onePage(): Plugin {
 
 export default defineConfig({
   base: "./",
-  plugins: [onePage()],
+  plugins: [libraryApart(), onePage()],
   esbuild: { charset: "utf8", legalComments: "none" },
   build: {
     target: "es2022",
@@ -70,5 +101,5 @@ export default defineConfig({
     reportCompressedSize: false,
     write: false,
   },
-  worker: { format: "iife" }, // a page opened as a file may not start module workers
+  worker: { format: "iife", plugins: () => [libraryApart()] }, // a page opened as a file may not start module workers
 });

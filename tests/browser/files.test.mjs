@@ -189,6 +189,15 @@ test("an archive that is written anew while it is looked at is noticed", async (
   await server.stop();
 });
 
+test("a browser that cannot start the HDF5 library is told in one sentence", async () => {
+  const { page } = await openPage(browser);
+  await page.addInitScript(() => delete globalThis.DecompressionStream);
+  await page.goto(pathToFileURL(written("whole.html")).href);
+  await page.waitForSelector(".error");
+  assert.match(await page.locator(".error p").first().innerText(), /^the browser cannot start the HDF5 library of this page: /);
+  await page.close();
+});
+
 test("a server that ended is said", async () => {
   const server = await serve(join(archives, "good"), "--port", "0");
   const { page } = await openPage(browser);
@@ -203,7 +212,7 @@ test("a server that ended is said", async () => {
 
 test("a page is one file, and says what it cannot hold", () => {
   const whole = readFileSync(written("whole.html"), "latin1");
-  assert.equal(whole.split("data-lumenline-file=").length - 1, whole.match(/<script type="application\/octet-stream"/g).length);
+  assert.equal(whole.split("data-lumenline-file=").length - 1, whole.match(/<script type="application\/octet-stream" data-/g).length);
   const wrong = spawnSync(binary, ["browse", join(archives, "good"), "page", "-o", written("x.html"), "--model", "toru"], { encoding: "utf8" });
   assert.equal(wrong.status, 2);
   assert.match(wrong.stderr, /'torus'/);

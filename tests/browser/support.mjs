@@ -9,6 +9,8 @@ import { inflateSync } from "node:zlib";
 export const source = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const viewer = join(source, "io/viewer");
 export const binary = process.env.LUMENLINE_BINARY ?? join(source, "build/release/lumenline");
+/** The tests' program that damages files. */
+export const damaging = process.env.LUMENLINE_DAMAGING ?? join(source, "build/release/tests/damage/damaged_files");
 const folder = process.env.LUMENLINE_BROWSER_FOLDER ?? join(source, "build/release/tests/browser");
 export const archives = join(folder, "archives");
 export const pictures = join(folder, "pictures");

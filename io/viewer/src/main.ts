@@ -2,6 +2,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./ui/theme.css";
 import { App } from "./app";
+import { bytesOfBlock } from "./archive/blocks";
 import { useTheme } from "./ui/theme";
 
 /** Files of an archive that stand in the page as base64, each in a block of data that no browser runs. */
@@ -12,10 +13,7 @@ function embedded(): { files: Map<string, Uint8Array>; root: string; name: strin
   let [root, name] = ["", ""];
   for (const block of blocks) {
     const path = block.dataset.lumenlineFile!;
-    const text = atob(block.textContent!.trim());
-    const bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-    files.set(path, bytes);
+    files.set(path, bytesOfBlock(block));
     root ||= path;
     name ||= block.dataset.lumenlineName ?? path;
     block.remove();

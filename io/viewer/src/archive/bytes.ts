@@ -18,7 +18,7 @@ export interface FileSet {
 /** Told of the bytes that were fetched so far. */
 export type Fetched = (bytes: number) => void;
 
-const kBlock = 1 << 16;
+const kBlock = 1 << 18;
 const kSmallFile = 1 << 22;
 
 /** A source behind blocks, for sources where each read is slow. Small files are read whole, at once. */
@@ -32,7 +32,7 @@ export class CachedSource implements ByteSource {
   }
 
   read(position: number, target: Uint8Array): void {
-    if (target.length >= 4 * kBlock && this.size > kSmallFile) {
+    if (target.length >= kBlock && this.size > kSmallFile) {
       this.slow.read(position, target);
       return;
     }

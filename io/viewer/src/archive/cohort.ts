@@ -61,8 +61,23 @@ function readFailures(file: Hdf5, notes: string[]): Failure[] {
   }
 }
 
+/** Units and descriptions of all columns, which the dictionary has in a few datasets. */
+function useDictionary(file: Hdf5): void {
+  if (!file.isGroup("/dictionary")) return; // an index of an earlier version
+  try {
+    const tables = file.strings("/dictionary/table");
+    const [columns, units, definitions] = ["column", "unit", "definition"].map((name) =>
+      file.strings(`/dictionary/${name}`, tables.length),
+    ) as [string[], string[], string[]];
+    tables.forEach((table, k) => file.describe(`/tables/${table}/${columns[k]}`, units[k]!, definitions[k]!));
+  } catch (error) {
+    if (!(error instanceof ArchiveError)) throw error; // the columns have them too
+  }
+}
+
 export function readCohort(file: Hdf5, name: string): Cohort {
   const notes: string[] = [];
+  useDictionary(file);
   const ids = file.strings("/tables/models/id");
   const models = readTable(file, "/tables/models", ids.length, kModelColumns, notes);
   const seconds = file.has("/timing/seconds") ? readTimes(file, ids) : null;

@@ -61,6 +61,10 @@ function mount(fs: EmscriptenFs, source: ByteSource, remember: (problem: unknown
 /** One open HDF5 file. */
 export class Hdf5 {
   private problem: unknown = null;
+  // Looked up once: each question is several calls into the library, and a table has hundreds of columns.
+  private readonly objects = new Map<string, unknown>();
+  private readonly infos = new Map<string, DatasetInfo>();
+  private readonly described = new Map<string, { units: string; description: string }>();
   private constructor(readonly name: string) {}
   private file!: H5File;
   private fs!: EmscriptenFs;
@@ -122,7 +126,9 @@ export class Hdf5 {
   }
 
   private get(path: string): unknown {
-    return this.guarded(() => this.file.get(path), `${path} cannot be read`);
+    let found = this.objects.get(path);
+    if (found === undefined) this.objects.set(path, (found = this.guarded(() => this.file.get(path), `${path} cannot be read`)));
+    return found;
   }
 
   has(path: string): boolean {
@@ -158,13 +164,27 @@ export class Hdf5 {
     return found;
   }
 
+  /** Attributes of a dataset that the file also has elsewhere, in one piece with others; they are not looked up then. */
+  describe(path: string, units: string, description: string): void {
+    this.described.set(path, { units, description });
+  }
+
   info(path: string): DatasetInfo | null {
+    const known = this.infos.get(path);
+    if (known) return known;
     const set = this.get(path);
     if (!(set instanceof Dataset)) return null;
     const { shape, type } = this.guarded(() => set.metadata, `${path} cannot be read`);
     const kind = type === kHdf5Class.float ? "float" : type === kHdf5Class.integer ? "integer" : type === kHdf5Class.string ? "text" : "other";
-    const text = (name: string) => String(this.guarded(() => plain(set.attrs[name]), `${path} cannot be read`) ?? "");
-    return { path, shape: shape ?? [], kind, units: text("units"), description: text("description") };
+    const info: DatasetInfo = { path, shape: shape ?? [], kind, ...(this.described.get(path) ?? this.description(path, set)) };
+    this.infos.set(path, info);
+    return info;
+  }
+
+  private description(path: string, set: Dataset): { units: string; description: string } {
+    const attributes = this.guarded(() => set.attrs, `${path} cannot be read`);
+    const text = (name: string) => String(this.guarded(() => plain(attributes[name]), `${path} cannot be read`) ?? "");
+    return { units: text("units"), description: text("description") };
   }
 
   /** Numbers of a dataset, row by row; of `expected` many values in all if that is given. */

@@ -146,7 +146,8 @@ export interface Requests {
 
 export type Verb = keyof Requests;
 
-export type ToWorker = { [V in Verb]: { number: number; verb: V; ask: Requests[V]["ask"] } }[Verb] | { cancel: number };
+export type Asked = { [V in Verb]: { number: number; verb: V; ask: Requests[V]["ask"] } }[Verb];
+export type ToWorker = Asked | { cancel: number } | { library: WebAssembly.Module | Error };
 
 export type FromWorker =
   | { number: number; answer: unknown }

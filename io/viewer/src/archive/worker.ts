@@ -4,8 +4,9 @@
 import { embeddedFiles, localFiles, servedFiles, type FileSet } from "./bytes";
 import { cohortOfModel, kModelColumns, readCohort, readTable } from "./cohort";
 import { ArchiveError, Hdf5 } from "./hdf5";
+import { library, useLibrary } from "./library";
 import { ModelReader } from "./model";
-import type { Cohort, FromWorker, Opened, ProfileRequest, Requests, Table, ToWorker, Verb } from "./protocol";
+import type { Asked, Cohort, FromWorker, Opened, ProfileRequest, Requests, Table, ToWorker, Verb } from "./protocol";
 
 const kMostOpen = 4;
 
@@ -124,9 +125,10 @@ const handlers: { [V in Verb]: (ask: Requests[V]["ask"], number: number) => Prom
   profiles: (request, number) => profiles(number, request),
 };
 
-async function answer(message: Exclude<ToWorker, { cancel: number }>): Promise<void> {
+async function answer(message: Asked): Promise<void> {
   const { number, verb, ask } = message;
   try {
+    await library();
     const handler = handlers[verb] as (ask: unknown, number: number) => Promise<unknown>;
     tell({ number, answer: await handler(ask, number) });
   } catch (error) {
@@ -139,7 +141,8 @@ async function answer(message: Exclude<ToWorker, { cancel: number }>): Promise<v
 
 let queue: Promise<void> = Promise.resolve();
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
-  if ("cancel" in data) cancelled.add(data.cancel);
+  if ("library" in data) useLibrary(data.library);
+  else if ("cancel" in data) cancelled.add(data.cancel);
   else queue = queue.then(() => answer(data));
 };
 

@@ -1,7 +1,8 @@
 // Geometries made of lines: tubes around polylines, whose frames are carried along without twist.
 import * as THREE from "three";
 
-const kSides = 10;
+const kSides = 8;
+const kSpacing = 2; // of rings, in radii of the tube
 
 export interface Tubes {
   geometry: THREE.BufferGeometry;
@@ -9,21 +10,40 @@ export interface Tubes {
   setValues(values: Float32Array | null): void;
 }
 
+/** Points of the polylines that get a ring: each as far from the one before it as the tube is thick, or at the end. */
+function ringed(points: Float32Array, offsets: ArrayLike<number>, radius: number): { at: number[]; starts: number[] } {
+  const [at, starts]: [number[], number[]] = [[], []];
+  const [here, last] = [new THREE.Vector3(), new THREE.Vector3()];
+  for (let line = 0; line + 1 < offsets.length; ++line) {
+    const [first, end] = [offsets[line]!, offsets[line + 1]!];
+    starts.push(at.length);
+    for (let k = first; k < end; ++k) {
+      here.fromArray(points, 3 * k);
+      if (k > first && k + 1 < end && here.distanceTo(last) < kSpacing * radius) continue;
+      at.push(k);
+      last.copy(here);
+    }
+  }
+  starts.push(at.length);
+  return { at, starts };
+}
+
 /** Tubes of one radius around the polylines [offsets[i], offsets[i+1]) of `points`. */
 export function tubes(points: Float32Array, offsets: ArrayLike<number>, radius: number): Tubes {
-  const count = points.length / 3;
+  const { at: source, starts } = ringed(points, offsets, radius);
+  const count = source.length;
   const position = new Float32Array(count * kSides * 3);
   const normal = new Float32Array(count * kSides * 3);
   const index: number[] = [];
   const [at, before, after, tangent, side, up] = Array.from({ length: 6 }, () => new THREE.Vector3()) as [
     THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3];
-  for (let line = 0; line + 1 < offsets.length; ++line) {
-    const [first, end] = [offsets[line]!, offsets[line + 1]!];
+  for (let line = 0; line + 1 < starts.length; ++line) {
+    const [first, end] = [starts[line]!, starts[line + 1]!];
     side.set(0, 0, 0);
     for (let k = first; k < end; ++k) {
-      at.fromArray(points, 3 * k);
-      before.fromArray(points, 3 * Math.max(first, k - 1));
-      after.fromArray(points, 3 * Math.min(end - 1, k + 1));
+      at.fromArray(points, 3 * source[k]!);
+      before.fromArray(points, 3 * source[Math.max(first, k - 1)]!);
+      after.fromArray(points, 3 * source[Math.min(end - 1, k + 1)]!);
       tangent.subVectors(after, before);
       if (tangent.lengthSq() > 0) tangent.normalize();
       else tangent.set(0, 0, 1);
@@ -52,7 +72,7 @@ export function tubes(points: Float32Array, offsets: ArrayLike<number>, radius: 
     geometry,
     setValues(values) {
       const ring = value.array as Float32Array;
-      for (let k = 0; k < count; ++k) ring.fill(values ? values[k]! : 0, k * kSides, (k + 1) * kSides);
+      for (let k = 0; k < count; ++k) ring.fill(values ? values[source[k]!]! : 0, k * kSides, (k + 1) * kSides);
       value.needsUpdate = true;
     },
   };
