@@ -10,10 +10,10 @@ import { defineConfig, type Plugin } from "vite";
 const hash = (text: string) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 
 /** The policy of the page. WebAssembly is compiled by h5wasm in the worker, which starts from a blob. */
-function policy(script: string, style: string): string {
+function policy(scripts: string[], style: string): string {
   return [
     "default-src 'none'",
-    `script-src ${hash(script)} 'wasm-unsafe-eval'`,
+    `script-src ${scripts.map(hash).join(" ")} 'wasm-unsafe-eval'`,
     `style-src ${hash(style)}`,
     "worker-src blob:",
     "img-src data: blob:",
@@ -57,28 +57,30 @@ function onePage(): Plugin {
     apply: "build",
     enforce: "post",
     generateBundle(_, bundle) {
-      let script = "";
+      let [first, script] = ["", ""];
       let style = "";
       for (const [name, item] of Object.entries(bundle)) {
-        if (item.type === "chunk" && item.isEntry) script = item.code;
-        else if (item.type === "asset" && name.endsWith(".css")) style = String(item.source);
+        if (item.type === "chunk" && item.isEntry && item.imports.length === 0) {
+          // What ends a script element or begins a comment in it can stand in strings and patterns only.
+          const code = item.code.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
+          if (item.name === "start") first = `(()=>{${code}})()`;
+          else script = code;
+        } else if (item.type === "asset" && name.endsWith(".css")) style = String(item.source);
         else if (name !== "index.html") this.error(`the page is to be one file, and ${name} stands beside it`);
       }
       const page = bundle["index.html"];
-      if (page?.type !== "asset" || !script || !style) return this.error("script, style or page is missing");
+      if (page?.type !== "asset" || !first || !script || !style) return this.error("script, style or page is missing");
       if (!library) return this.error("the HDF5 library is missing");
       const packed = Buffer.from(gzipSync(library, { level: 9, mtime: 0 })).toString("base64");
       const block = `<script type="application/octet-stream" id="hdf5-library">${packed}</script>`;
-      // What ends a script element or begins a comment in it can stand in strings and patterns only.
-      script = script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
       style = style.trim();
-      const rules = policy(script, style);
+      const rules = policy([first, script], style);
       const head = `<meta http-equiv="Content-Security-Policy" content="${rules}" />\n    <style>${style}</style>`;
       const html = String(page.source)
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
         .replace("<meta charset=\"utf-8\" />", () => `<meta charset="utf-8" />\n    ${head}`)
-        .replace(/\s*<\/body>/, () => `\n    ${block}\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
+        .replace(/\s*<\/body>/, () => `\n    ${block}\n    <script>${first}</script>\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
       for (const name of Object.keys(bundle)) delete bundle[name];
       const folder = resolve(process.env.LUMENLINE_PAGE_FOLDER ?? "built");
       mkdirSync(folder, { recursive: true });
@@ -100,6 +102,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 10000,
     reportCompressedSize: false,
     write: false,
+    rollupOptions: { input: { page: "index.html", start: "src/archive/start.ts" } },
   },
   worker: { format: "iife", plugins: () => [libraryApart()] }, // a page opened as a file may not start module workers
 });

@@ -1,19 +1,7 @@
 // The page's side of the worker: a call per verb. A worker that broke is replaced, and the archive opened again in the
 // new one before anything else is asked of it.
-import { bytesOfBlock } from "./blocks";
-import ArchiveWorker from "./worker?worker&inline";
+import type {} from "./start";
 import type { FromWorker, Opened, Requests, Verb } from "./protocol";
-
-/** The HDF5 library that the page carries compressed in a block of data. */
-async function compiledLibrary(): Promise<WebAssembly.Module | Error> {
-  try {
-    const packed = new Blob([bytesOfBlock(document.getElementById("hdf5-library")!)]);
-    const bytes = new Response(packed.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    return await WebAssembly.compile(await bytes);
-  } catch (error) {
-    return new Error(`the browser cannot start the HDF5 library of this page: ${error instanceof Error ? error.message : error}`);
-  }
-}
 
 interface Waiting {
   done(answer: unknown): void;
@@ -22,7 +10,6 @@ interface Waiting {
 }
 
 export class Client {
-  private readonly library = compiledLibrary();
   private worker = this.start();
   private readonly waiting = new Map<number, Waiting>();
   private next = 0;
@@ -57,9 +44,9 @@ export class Client {
   }
 
   private start(): Worker {
-    const worker = new ArchiveWorker();
+    const worker = reader.worker();
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.receive(data);
-    void this.library.then((library) => worker.postMessage({ library }));
+    void reader.library.then((library) => worker.postMessage({ library }));
     worker.onerror = () => this.replace("the reader of the archive stopped");
     return worker;
   }
