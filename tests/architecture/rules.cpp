@@ -52,7 +52,7 @@ const std::vector<Library>& libraries() {
         {"OpenMesh", {"OpenMesh/"}, {"engine/condition", "io/mesh"}},
         {"OpenSSL", {"openssl/"}, {"io/mesh", "io/export"}},
         {"pugixml", {"pugixml"}, {"io/mesh"}},
-        {"zlib", {"zlib.h"}, {"io/mesh", "io/viewer"}},
+        {"zlib", {"zlib.h"}, {"io/archive", "io/mesh", "io/viewer"}},
         {"libpng", {"png.h", "libpng"}, {"io/export"}},
         {"CLI11", {"CLI/"}, {"engine/cli"}},
         {"cpp-httplib", {"httplib"}, {"engine/cli"}},
