@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -63,6 +64,9 @@ private:
 inline Vec3 point_at(const std::vector<double>& xyz, std::size_t row) {
     return {xyz[3 * row], xyz[3 * row + 1], xyz[3 * row + 2]};
 }
+
+/// Also if both are NaN.
+inline bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// Which datasets and attributes are there, of which type, shape and unit: sets lengths and what is sound.
 void check_structure(Inspection& inspection, const std::vector<SpecifiedAttribute>& attributes, bool failed,

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <type_traits>
+
+#include "io/archive/tables.h"
 
 namespace lumenline::hdf {
 
@@ -80,10 +80,7 @@ bool take_column(Unpacker& from, std::size_t rows, Column& column) {
         column.numbers.resize(rows);
         from.take(column.numbers.data(), rows);
         return column.kind == ColumnKind::kNumber ||
-               std::all_of(column.numbers.begin(), column.numbers.end(), [](double value) {
-                   return value >= -1 && value <= std::numeric_limits<std::int32_t>::max() &&
-                          value == std::floor(value);
-               });
+               std::all_of(column.numbers.begin(), column.numbers.end(), is_index);
     }
     if (!from.has(rows, sizeof(std::uint32_t))) return false;
     column.texts.resize(rows);

@@ -1,6 +1,7 @@
 // A column that a file does not have, since an earlier version wrote it, is read as missing values.
 #include "io/archive/tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -93,6 +94,10 @@ void write_branches(Writer& writer, const Branches& branches, std::size_t sites,
     for (const Table& table : branch_tables(branches)) write_table(writer, std::string("/") + table.name, table);
 }
 
+bool is_index(double value) {
+    return value >= -1 && value <= std::numeric_limits<std::int32_t>::max() && value == std::floor(value);
+}
+
 bool read_table(const ArchiveFile& file, const std::string& group, Table& table) {
     if (!file.has(group)) return false;
     const auto damaged = [&](const std::string& reason) {
@@ -118,10 +123,8 @@ bool read_table(const ArchiveFile& file, const std::string& group, Table& table)
             column.numbers = file.numbers(path);
         }
         if (column.rows() != rows) damaged("are not of one length");
-        if (column.kind != ColumnKind::kIndex) continue;
-        for (const double value : column.numbers)
-            if (!(value >= -1 && value <= std::numeric_limits<std::int32_t>::max() && value == std::floor(value)))
-                damaged("hold an index that is none");
+        if (column.kind == ColumnKind::kIndex && !std::all_of(column.numbers.begin(), column.numbers.end(), is_index))
+            damaged("hold an index that is none");
     }
     return true;
 }

@@ -21,6 +21,9 @@ void write_table(Writer& writer, const std::string& group, const Table& table);
 void write_branches(Writer& writer, const Branches& branches, std::size_t sites, std::size_t points,
                     const ArchiveOptions& options);
 
+/// Can a column of kIndex have that value? NaN can not.
+bool is_index(double value);
+
 /// Reads the columns of `table` from below `group`. @returns false where the file has no such group
 /// @throws ArchiveError for columns of different length
 bool read_table(const ArchiveFile& file, const std::string& group, Table& table);

@@ -175,7 +175,6 @@ bool is_sound_column(const Inspection& inspection, const Table& table, const Col
 void check_index_rows(Inspection& inspection) {
     const char* const path = names::kIndexRows.path;
     if (!inspection.is_sound(path)) return;
-    const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
     std::vector<Table> packed = index_tables(Branches(), Endpoints()), read;
     try {
         if (!hdf::unpack_rows(inspection.file().bytes(path), packed))
@@ -189,7 +188,7 @@ void check_index_rows(Inspection& inspection) {
             const Column &copy = packed[t].columns[c], &column = read[t].columns[c];
             if (is_sound_column(inspection, read[t], column) &&
                 (copy.texts != column.texts || !std::equal(copy.numbers.begin(), copy.numbers.end(),
-                                                           column.numbers.begin(), column.numbers.end(), same)))
+                                                           column.numbers.begin(), column.numbers.end(), same_number)))
                 return inspection.report(path, "it differs from the column " + column.name + " of /" + read[t].name);
         }
 }

@@ -108,9 +108,8 @@ void check_counts(Inspection& inspection) {
 void check_copy(Inspection& inspection, const names::Field& field, const Numbers& expected, const char* of) {
     if (!inspection.is_sound(field.path)) return;
     const Numbers& found = inspection.numbers(field);
-    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
     inspection.all_hold(field.path, expected.size(), [&](std::size_t k) {
-        return k < found.size() && same(found[k], expected[k])
+        return k < found.size() && same_number(found[k], expected[k])
                    ? std::string()
                    : "the value at " + std::to_string(k) + " is not that of " + of;
     });

@@ -9,7 +9,7 @@ import { defineConfig, type Plugin } from "vite";
 
 const hash = (text: string) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 
-/** The policy of the page. WebAssembly is compiled by h5wasm in the worker, which starts from a blob. */
+/** The policy of the page. WebAssembly is compiled by the page and made an instance in the worker, which starts from a blob. */
 function policy(scripts: string[], style: string): string {
   return [
     "default-src 'none'",

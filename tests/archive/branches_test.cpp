@@ -19,12 +19,6 @@ std::filesystem::path written(const ModelRecord& record, const std::string& name
     return file;
 }
 
-void expect_same(const std::vector<double>& a, const std::vector<double>& b, const std::string& what) {
-    ASSERT_EQ(a.size(), b.size()) << what;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        EXPECT_TRUE(a[k] == b[k] || (std::isnan(a[k]) && std::isnan(b[k]))) << what << " " << k;
-}
-
 TEST(BranchesInFile, TablesComeBackWithTheirDefinitions) {
     const ModelRecord record = sample_record();
     const ArchiveFile file(written(record, "tables"));

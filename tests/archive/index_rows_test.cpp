@@ -93,9 +93,7 @@ TEST(PackedRows, ComeBackAsTheyWereAndAsTheColumnsTellThem) {
             for (std::size_t c = 0; c < packed[t].columns.size(); ++c) {
                 const Column &a = packed[t].columns[c], &b = columns[t].columns[c];
                 EXPECT_EQ(a.texts, b.texts) << a.name;
-                ASSERT_EQ(a.numbers.size(), b.numbers.size()) << a.name;
-                for (std::size_t k = 0; k < a.numbers.size(); ++k)
-                    EXPECT_TRUE(a.numbers[k] == b.numbers[k] || (std::isnan(a.numbers[k]) && std::isnan(b.numbers[k])));
+                expect_same(a.numbers, b.numbers, a.name);
             }
         EXPECT_EQ(packed.back().rows(), record.endpoints ? record.endpoints->size() : 0U);
     }

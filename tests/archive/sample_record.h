@@ -26,6 +26,9 @@ std::filesystem::path fresh_directory(const std::string& name);
 std::string bytes_of(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
+/// Expects numbers to be equal, one by one, or both NaN.
+void expect_same(const std::vector<double>& a, const std::vector<double>& b, const std::string& what);
+
 /// Empty if the summaries are equal in every field, else the first field that differs.
 std::string difference(const ModelSummary& a, const ModelSummary& b);
 
