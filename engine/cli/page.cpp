@@ -74,6 +74,13 @@ void require_small(const std::vector<Part>& parts) {
                            ": choose models with --model, take --empty and open the archive in the page, or use serve");
 }
 
+/// The page has no server to ask for the library.
+void write_library(std::ostream& out) {
+    std::string text;
+    append_base64(page_library_gzip(), text);
+    out << "<script type=\"application/octet-stream\" id=\"hdf5-library\">" << text << "</script>\n    ";
+}
+
 void write_part(const Part& part, const std::string& name, std::ostream& out) {
     out << "<script type=\"application/octet-stream\" data-lumenline-file=\"" << escaped(valid_text(part.path))
         << "\" data-lumenline-name=\"" << escaped(name) << "\">";
@@ -94,15 +101,16 @@ void write_part(const Part& part, const std::string& name, std::ostream& out) {
 
 void write_page(const std::filesystem::path& archive, const std::filesystem::path& file, const PageOptions& options) {
     const ArchiveFiles files(archive);
-    const std::string html = page_html();
-    const std::size_t mark = html.find(kArchiveMark);
+    const std::string html = unpacked(page_gzip());
+    const std::size_t mark = html.find(kBlocksMark);
     if (mark == std::string::npos) throw std::runtime_error("the built-in page is damaged: build the program again");
     const std::vector<Part> parts = options.empty ? std::vector<Part>{} : parts_of(archive, files, options.models);
     require_small(parts);
     write_file(file, [&](std::ostream& out) {
         out << std::string_view(html).substr(0, mark);
+        write_library(out);
         for (const Part& part : parts) write_part(part, files.name(), out);
-        out << std::string_view(html).substr(mark + kArchiveMark.size());
+        out << std::string_view(html).substr(mark + kBlocksMark.size());
     });
 }
 

@@ -65,14 +65,15 @@ void set_headers(Response& response) {
     response.set_header("Cache-Control", "no-store");
 }
 
-void give_page(const Request& request, Response& response) {
-    if (!request.ranges.empty()) return refuse(response, kNoRange, "The page is given whole.");
-    const bool packed = request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
-    if (packed) response.set_header("Content-Encoding", "gzip");
-    const auto text = packed ? nullptr : std::make_shared<const std::string>(page_html());
-    const std::string_view bytes = packed ? page_gzip() : *text;
-    response.set_content_provider(bytes.size(), "text/html; charset=utf-8",
-                                  [text, bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+/// Gives what was compressed when the page was built.
+void give_packed(std::string_view packed, const char* type, const Request& request, Response& response) {
+    if (!request.ranges.empty()) return refuse(response, kNoRange, "This is given whole.");
+    const bool as_it_is = request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+    if (as_it_is) response.set_header("Content-Encoding", "gzip");
+    const auto plain = as_it_is ? nullptr : std::make_shared<const std::string>(unpacked(packed));
+    const std::string_view bytes = as_it_is ? packed : *plain;
+    response.set_content_provider(bytes.size(), type,
+                                  [plain, bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
                                       return sink.write(bytes.data() + offset, length);
                                   });
 }
@@ -97,7 +98,8 @@ void answer(const ArchiveFiles& files, const Request& request, Response& respons
         return refuse(response, kForbidden, "This server answers to localhost and 127.0.0.1 only.");
     if (request.method != "GET" && request.method != "HEAD")
         return refuse(response, kNotAllowed, "The archive can only be read.");
-    if (request.path == "/") return give_page(request, response);
+    if (request.path == "/") return give_packed(page_gzip(), "text/html; charset=utf-8", request, response);
+    if (request.path == "/hdf5.wasm") return give_packed(page_library_gzip(), "application/wasm", request, response);
     if (request.path == "/archive.json") {
         const nlohmann::json about{{"root", files.root()}, {"name", files.name()}};
         const auto replace = nlohmann::json::error_handler_t::replace;

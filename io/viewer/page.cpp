@@ -15,6 +15,10 @@ __asm__(
     ".incbin \"" LUMENLINE_PAGE "\"\n"
     "lumenline_page_end:\n"
     ".byte 0\n"
+    "lumenline_library_begin:\n"
+    ".incbin \"" LUMENLINE_PAGE_LIBRARY "\"\n"
+    "lumenline_library_end:\n"
+    ".byte 0\n"
     "lumenline_policy_begin:\n"
     ".incbin \"" LUMENLINE_PAGE_POLICY "\"\n"
     "lumenline_policy_end:\n"
@@ -25,6 +29,8 @@ __asm__(
 extern "C" {
 extern const char lumenline_page_begin[] __attribute__((visibility("hidden")));
 extern const char lumenline_page_end[] __attribute__((visibility("hidden")));
+extern const char lumenline_library_begin[] __attribute__((visibility("hidden")));
+extern const char lumenline_library_end[] __attribute__((visibility("hidden")));
 extern const char lumenline_policy_begin[] __attribute__((visibility("hidden")));
 extern const char lumenline_policy_end[] __attribute__((visibility("hidden")));
 }
@@ -41,26 +47,27 @@ std::string_view between(const char* begin, const char* end) { return {begin, st
 
 std::string_view page_gzip() { return between(lumenline_page_begin, lumenline_page_end); }
 
-std::string page_html() {
-    const std::string_view packed = page_gzip();
+std::string_view page_library_gzip() { return between(lumenline_library_begin, lumenline_library_end); }
+
+std::string unpacked(std::string_view packed) {
     z_stream stream{};
     if (inflateInit2(&stream, MAX_WBITS + kGzipHeader) != Z_OK)
         throw std::runtime_error("the built-in page cannot be read: zlib does not start");
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
     stream.avail_in = static_cast<uInt>(packed.size());
-    std::string html;
+    std::string bytes;
     int status = Z_OK;
     while (status == Z_OK) {
-        const std::size_t had = html.size();
-        html.resize(had + (std::size_t{1} << 20));
-        stream.next_out = reinterpret_cast<Bytef*>(html.data() + had);
-        stream.avail_out = static_cast<uInt>(html.size() - had);
+        const std::size_t had = bytes.size();
+        bytes.resize(had + (std::size_t{1} << 20));
+        stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + had);
+        stream.avail_out = static_cast<uInt>(bytes.size() - had);
         status = inflate(&stream, Z_NO_FLUSH);
-        html.resize(html.size() - stream.avail_out);
+        bytes.resize(bytes.size() - stream.avail_out);
     }
     inflateEnd(&stream);
     if (status != Z_STREAM_END) throw std::runtime_error("the built-in page is damaged: build the program again");
-    return html;
+    return bytes;
 }
 
 std::string_view page_policy() {

@@ -1,6 +1,6 @@
-// One self-contained page: script, style and worker go into index.html, which states a content-security policy with
-// the hashes of just these; then the page is compressed by a library of fixed version, so that the bytes depend on
-// package-lock.json and the sources alone.
+// One page: script, style and worker go into index.html, which states a content-security policy with the hashes of just
+// these; the WebAssembly of the HDF5 library stands beside it. Both are compressed by a library of fixed version, so that
+// the bytes depend on package-lock.json and the sources alone.
 import { createHash } from "node:crypto";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
@@ -9,7 +9,7 @@ import { defineConfig, type Plugin } from "vite";
 
 const hash = (text: string) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 
-/** The policy of the page. WebAssembly is compiled by the page and made an instance in the worker, which starts from a blob. */
+/** The policy of the page. WebAssembly runs in the worker, which starts from a blob. */
 function policy(scripts: string[], style: string): string {
   return [
     "default-src 'none'",
@@ -71,20 +71,20 @@ function onePage(): Plugin {
       const page = bundle["index.html"];
       if (page?.type !== "asset" || !first || !script || !style) return this.error("script, style or page is missing");
       if (!library) return this.error("the HDF5 library is missing");
-      const packed = Buffer.from(gzipSync(library, { level: 9, mtime: 0 })).toString("base64");
-      const block = `<script type="application/octet-stream" id="hdf5-library">${packed}</script>`;
       style = style.trim();
       const rules = policy([first, script], style);
-      const head = `<meta http-equiv="Content-Security-Policy" content="${rules}" />\n    <style>${style}</style>`;
+      const head = `<meta http-equiv="Content-Security-Policy" content="${rules}" />\n    <!--blocks-->\n    <script>${first}</script>\n    <style>${style}</style>`;
       const html = String(page.source)
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
         .replace("<meta charset=\"utf-8\" />", () => `<meta charset="utf-8" />\n    ${head}`)
-        .replace(/\s*<\/body>/, () => `\n    ${block}\n    <script>${first}</script>\n    <script type="module">${script}</script>\n    <!--archive-->\n  </body>`);
+        .replace(/\s*<\/body>/, () => `\n    <script type="module">${script}</script>\n  </body>`);
       for (const name of Object.keys(bundle)) delete bundle[name];
       const folder = resolve(process.env.LUMENLINE_PAGE_FOLDER ?? "built");
       mkdirSync(folder, { recursive: true });
-      writeFileSync(resolve(folder, "page.html.gz"), gzipSync(new TextEncoder().encode(html), { level: 9, mtime: 0 }));
+      const packed = (bytes: Uint8Array) => gzipSync(bytes, { level: 9, mtime: 0 });
+      writeFileSync(resolve(folder, "page.html.gz"), packed(new TextEncoder().encode(html)));
+      writeFileSync(resolve(folder, "hdf5.wasm.gz"), packed(library));
       writeFileSync(resolve(folder, "page.csp"), rules + "; frame-ancestors 'none'\n");
     },
   };

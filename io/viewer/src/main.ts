@@ -2,7 +2,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./ui/theme.css";
 import { App } from "./app";
-import type {} from "./archive/start";
+import { bytesOfBase64 } from "./archive/base64";
 import { useTheme } from "./ui/theme";
 
 /** Files of an archive that stand in the page as base64, each in a block of data that no browser runs. */
@@ -13,7 +13,7 @@ function embedded(): { files: Map<string, Uint8Array>; root: string; name: strin
   let [root, name] = ["", ""];
   for (const block of blocks) {
     const path = block.dataset.lumenlineFile!;
-    files.set(path, reader.bytesOfBlock(block));
+    files.set(path, bytesOfBase64(block.textContent!));
     root ||= path;
     name ||= block.dataset.lumenlineName ?? path;
     block.remove();
@@ -26,14 +26,8 @@ async function begin(): Promise<void> {
   const app = new App(document.getElementById("app")!);
   const inside = embedded();
   if (inside) return app.open({ kind: "embedded", ...inside });
-  try {
-    const answer = await reader.served;
-    if (!answer?.ok) return app.start();
-    const { root, name } = (await answer.json()) as { root: string; name: string };
-    return app.open({ kind: "served", base: new URL("archive/", location.href).href, root, name });
-  } catch {
-    return app.start();
-  }
+  const served = await app.client.call("served", null);
+  return served ? app.open(served) : app.start();
 }
 
 void begin();

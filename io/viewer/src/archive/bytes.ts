@@ -11,8 +11,8 @@ export interface ByteSource {
 
 /** The files of one archive, by their path within it ("cohort.h5", "models/a.hdf"). */
 export interface FileSet {
-  /** Null if there is no such file; throws with a sentence if it cannot be reached. */
-  open(path: string): ByteSource | null;
+  /** Null if there is no such file; throws with a sentence if it cannot be reached. Small files are read at once. */
+  open(path: string): Promise<ByteSource | null>;
 }
 
 /** Told of the bytes that were fetched so far. */
@@ -21,8 +21,8 @@ export type Fetched = (bytes: number) => void;
 const kBlock = 1 << 18;
 const kSmallFile = 1 << 22;
 
-/** A source behind blocks, for sources where each read is slow. Small files are read whole, at once. */
-export class CachedSource implements ByteSource {
+/** A source behind blocks, for sources where each read is slow. */
+class CachedSource implements ByteSource {
   private readonly blocks = new Map<number, Uint8Array>();
 
   constructor(private readonly slow: ByteSource) {}
@@ -32,30 +32,26 @@ export class CachedSource implements ByteSource {
   }
 
   read(position: number, target: Uint8Array): void {
-    if (target.length >= kBlock && this.size > kSmallFile) {
+    if (target.length >= kBlock) {
       this.slow.read(position, target);
       return;
     }
     const end = position + target.length;
     let at = position;
     while (at < end) {
-      const block = this.block(Math.floor(at / this.blockSize()));
-      const within = at % this.blockSize();
+      const block = this.block(Math.floor(at / kBlock));
+      const within = at % kBlock;
       const part = block.subarray(within, Math.min(block.length, within + end - at));
       target.set(part, at - position);
       at += part.length;
     }
   }
 
-  private blockSize(): number {
-    return this.size <= kSmallFile ? kSmallFile : kBlock;
-  }
-
   private block(index: number): Uint8Array {
     const known = this.blocks.get(index);
     if (known) return known;
-    const start = index * this.blockSize();
-    const made = new Uint8Array(Math.min(this.blockSize(), this.size - start));
+    const start = index * kBlock;
+    const made = new Uint8Array(Math.min(kBlock, this.size - start));
     this.slow.read(start, made);
     this.blocks.set(index, made);
     return made;
@@ -94,8 +90,9 @@ class LocalSource implements ByteSource {
   }
 }
 
+/** A file of the server, by ranges of it. */
 class ServedSource implements ByteSource {
-  private constructor(
+  constructor(
     private readonly url: string,
     private readonly name: string,
     readonly size: number,
@@ -103,66 +100,68 @@ class ServedSource implements ByteSource {
     private readonly fetched: Fetched,
   ) {}
 
-  static open(url: string, name: string, fetched: Fetched): ServedSource | null {
-    const request = ServedSource.request("HEAD", url, name, () => {});
-    if (request.status === 404) return null;
-    const size = Number(request.getResponseHeader("Content-Length"));
-    if (request.status !== 200 || !Number.isSafeInteger(size))
-      throw new Error(`the server does not give '${name}' (status ${request.status})`);
-    return new ServedSource(url, name, size, request.getResponseHeader("ETag"), fetched);
-  }
-
   read(position: number, target: Uint8Array): void {
     if (target.length === 0) return;
-    const request = ServedSource.request("GET", this.url, this.name, (r) => {
-      r.responseType = "arraybuffer";
-      r.setRequestHeader("Range", `bytes=${position}-${position + target.length - 1}`);
-    });
-    const bytes = request.response instanceof ArrayBuffer ? new Uint8Array(request.response) : new Uint8Array(0);
-    if (request.getResponseHeader("ETag") !== this.tag)
-      throw new Error(`the file '${this.name}' was written anew while it was read: load the page again`);
-    if (request.status !== 206 || bytes.length !== target.length)
-      throw new Error(`the server does not give all of '${this.name}' (status ${request.status})`);
-    target.set(bytes);
-    this.fetched(bytes.length);
-  }
-
-  private static request(method: string, url: string, name: string, prepare: (r: XMLHttpRequest) => void) {
     const request = new XMLHttpRequest();
-    request.open(method, url, false);
-    prepare(request);
+    request.open("GET", this.url, false);
+    request.responseType = "arraybuffer";
+    request.setRequestHeader("Range", `bytes=${position}-${position + target.length - 1}`);
     try {
       request.send();
     } catch {
-      throw new Error(`the server does not answer for '${name}': see whether 'lumenline browse ... serve' still runs`);
+      throw silent(this.name);
     }
-    return request;
+    const bytes = request.response instanceof ArrayBuffer ? new Uint8Array(request.response) : new Uint8Array(0);
+    if (request.getResponseHeader("ETag") !== this.tag)
+      throw new Error(`the file '${this.name}' was written anew while it was read: load the page again`);
+    if (request.status !== 206 || bytes.length !== target.length) throw refused(this.name, request.status);
+    target.set(bytes);
+    this.fetched(bytes.length);
   }
+}
+
+const silent = (name: string) =>
+  new Error(`the server does not answer for '${name}': see whether 'lumenline browse ... serve' still runs`);
+const refused = (name: string, status: number) => new Error(`the server does not give all of '${name}' (status ${status})`);
+
+async function openServed(url: string, name: string, fetched: Fetched): Promise<ByteSource | null> {
+  const ask = (method: string) => fetch(url, { method }).catch(() => Promise.reject(silent(name)));
+  const head = await ask("HEAD");
+  if (head.status === 404) return null;
+  const size = Number(head.headers.get("Content-Length"));
+  if (head.status !== 200 || !Number.isSafeInteger(size)) throw refused(name, head.status);
+  if (size > kSmallFile) return new CachedSource(new ServedSource(url, name, size, head.headers.get("ETag"), fetched));
+  if (size === 0) return new MemorySource(new Uint8Array(0));
+  const whole = await ask("GET");
+  if (whole.status !== 200) throw refused(name, whole.status);
+  const bytes = await whole.arrayBuffer().catch(() => Promise.reject(silent(name)));
+  fetched(bytes.byteLength);
+  return new MemorySource(new Uint8Array(bytes));
 }
 
 const encoded = (path: string) => path.split("/").map(encodeURIComponent).join("/");
 
 export function servedFiles(base: string, fetched: Fetched): FileSet {
-  return {
-    open(path) {
-      const source = ServedSource.open(base + encoded(path), path, fetched);
-      return source && new CachedSource(source);
-    },
-  };
+  return { open: (path) => openServed(base + encoded(path), path, fetched) };
 }
 
 export function localFiles(files: ReadonlyMap<string, Blob>, fetched: Fetched): FileSet {
   return {
-    open(path) {
+    async open(path) {
       const file = files.get(path);
-      return file ? new CachedSource(new LocalSource(file, path, fetched)) : null;
+      if (!file) return null;
+      const source = new LocalSource(file, path, fetched);
+      if (file.size > kSmallFile) return new CachedSource(source);
+      const bytes = new Uint8Array(file.size);
+      source.read(0, bytes);
+      return new MemorySource(bytes);
     },
   };
 }
 
 export function embeddedFiles(files: ReadonlyMap<string, Uint8Array>): FileSet {
   return {
-    open(path) {
+    async open(path) {
       const bytes = files.get(path);
       return bytes ? new MemorySource(bytes) : null;
     },

@@ -44,9 +44,8 @@ export class Client {
   }
 
   private start(): Worker {
-    const worker = reader.worker();
+    const worker = newReader();
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.receive(data);
-    void reader.library.then((library) => worker.postMessage({ library }));
     worker.onerror = () => this.replace("the reader of the archive stopped");
     return worker;
   }

@@ -4,10 +4,12 @@ import type { Cohort, Column, Failure, Table } from "./protocol";
 import { ArchiveError, type Hdf5 } from "./hdf5";
 import { columnLabel } from "./words";
 
+const kCovariate = "covariate, as the cohort's table states it";
+
 function readColumn(file: Hdf5, path: string, name: string, rows: number): Column | null {
   const info = file.info(path);
   if (!info || info.shape.length !== 1) return null;
-  const given = file.attribute(path, "column");
+  const given = info.description === kCovariate ? file.attribute(path, "column") : null; // its name need not do as a dataset's
   const column: Column = {
     name,
     label: typeof given === "string" && given !== "" ? given : columnLabel(name),

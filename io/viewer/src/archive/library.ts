@@ -1,26 +1,38 @@
-// The HDF5 library's WebAssembly, in the worker: the page compiles it once and hands it over. As h5wasm ships it, each
-// worker would parse four megabytes of script and decode them to bytes before it compiled them. The build puts
-// `instantiateWasm` into h5wasm's call of its factory, and the bytes, compressed, into the page (vite.config.ts).
+// The HDF5 library's WebAssembly, in the worker. As h5wasm ships it, each worker would parse four megabytes of script and
+// decode them to bytes before it compiled them. The build puts `instantiateWasm` into h5wasm's call of its factory and the
+// bytes, compressed, into a file of their own (vite.config.ts), which the server gives and pages without one carry.
+import { bytesOfBase64 } from "./base64";
+import type { PackedLibrary } from "./protocol";
 
-let take: (module: WebAssembly.Module) => void;
-let refuse: (reason: Error) => void;
-const module = new Promise<WebAssembly.Module>((done, failed) => ([take, refuse] = [done, failed]));
-module.catch(() => {}); // told to whoever waits for it
+let take: (packed: PackedLibrary) => void;
+const packed = new Promise<PackedLibrary>((done) => (take = done));
+let started: () => void;
+let failed: (reason: Error) => void;
+const running = new Promise<void>((done, refused) => ([started, failed] = [done, refused]));
+running.catch(() => {}); // told to whoever waits for it
 
-/** Waits for the library; throws where the page has none that can be compiled. */
-export async function library(): Promise<void> {
-  await module;
-}
+export const useLibrary = (given: PackedLibrary): void => take(given);
 
-export function useLibrary(compiled: WebAssembly.Module | Error): void {
-  if (compiled instanceof WebAssembly.Module) take(compiled);
-  else refuse(compiled);
+/** Waits for the library; throws a sentence where the browser cannot start it. */
+export const library = (): Promise<void> => running;
+
+async function compiled(given: PackedLibrary): Promise<WebAssembly.Module> {
+  if ("server" in given) return WebAssembly.compileStreaming(fetch(new URL("hdf5.wasm", given.server)));
+  const bytes = new Blob([bytesOfBase64(given.base64)]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compileStreaming(new Response(bytes, { headers: { "Content-Type": "application/wasm" } }));
 }
 
 /** Emscripten's hook, instead of its own way to the bytes. */
-export function instantiateWasm(
+export async function instantiateWasm(
   imports: WebAssembly.Imports,
   receive: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void,
-): void {
-  module.then(async (compiled) => receive(await WebAssembly.instantiate(compiled, imports), compiled), () => {});
+): Promise<void> {
+  try {
+    const module = await compiled(await packed);
+    receive(await WebAssembly.instantiate(module, imports), module);
+    started();
+  } catch (error) {
+    const why = error instanceof Error ? error.message : String(error);
+    failed(new Error(`the browser cannot start the HDF5 library of this page: ${why}`));
+  }
 }

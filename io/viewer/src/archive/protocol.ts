@@ -1,8 +1,18 @@
 // What the page and its worker say to each other. All coordinates of a model are relative to `centre`, so that 32-bit
 // numbers hold them; units stand beside the values.
 
+/** The HDF5 library, gzipped: from the server that has the archive too, or from the page itself. */
+export type PackedLibrary = { server: string } | { base64: string };
+
+export interface ServedArchive {
+  kind: "served";
+  base: string;
+  root: string;
+  name: string;
+}
+
 export type Opened =
-  | { kind: "served"; base: string; root: string; name: string }
+  | ServedArchive
   | { kind: "local"; files: Map<string, Blob>; root: string; name: string }
   | { kind: "embedded"; files: Map<string, Uint8Array>; root: string; name: string };
 
@@ -135,6 +145,7 @@ export interface ProfileRequest {
 }
 
 export interface Requests {
+  served: { ask: null; answer: ServedArchive | null };
   open: { ask: Opened; answer: Cohort };
   table: { ask: string; answer: Table };
   model: { ask: string; answer: Model };
@@ -147,7 +158,7 @@ export interface Requests {
 export type Verb = keyof Requests;
 
 export type Asked = { [V in Verb]: { number: number; verb: V; ask: Requests[V]["ask"] } }[Verb];
-export type ToWorker = Asked | { cancel: number } | { library: WebAssembly.Module | Error };
+export type ToWorker = Asked | { cancel: number } | { library: PackedLibrary };
 
 export type FromWorker =
   | { number: number; answer: unknown }

@@ -1,35 +1,27 @@
-// Runs first, while the browser still reads the rest of the page: the HDF5 library is compiled, a worker starts and the
-// server is asked what it serves, all at the same time. The page finds them in `reader`.
-import { bytesOfBlock } from "./blocks";
+// Runs first, while the browser still reads the rest of the page: starts a worker, which begins with the HDF5 library and
+// the archive that the server has. The page finds it in `reader`.
+import type { PackedLibrary, ToWorker } from "./protocol";
 import ArchiveWorker from "./worker?worker&inline";
 
-/** The HDF5 library that the page carries compressed in a block of data; an Error tells why there is none. */
-async function compiledLibrary(): Promise<WebAssembly.Module | Error> {
-  try {
-    const packed = new Blob([bytesOfBlock(document.getElementById("hdf5-library")!)]);
-    const bytes = new Response(packed.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    return await WebAssembly.compile(await bytes);
-  } catch (error) {
-    return new Error(`the browser cannot start the HDF5 library of this page: ${error instanceof Error ? error.message : error}`);
-  }
+// A page that is one file has the library in a block; else there is a server, which has it.
+const block = document.getElementById("hdf5-library");
+const library: PackedLibrary = block ? { base64: block.textContent! } : { server: new URL(".", location.href).href };
+block?.remove();
+
+function start(): Worker {
+  const worker = new ArchiveWorker();
+  worker.postMessage({ library } satisfies ToWorker);
+  return worker;
 }
 
-let first: Worker | null = new ArchiveWorker();
-
-const started = {
-  library: compiledLibrary(),
-  /** A worker that has not been used. */
-  worker(): Worker {
-    const worker = first ?? new ArchiveWorker();
-    first = null;
-    return worker;
-  },
-  /** What the server says it serves; null where there is none. */
-  served: location.protocol.startsWith("http") ? fetch("archive.json").catch(() => null) : Promise.resolve(null),
-  bytesOfBlock,
-};
+let unused: Worker | null = start();
 
 declare global {
-  var reader: typeof started;
+  /** Gives a worker that has not been used. */
+  var newReader: () => Worker;
 }
-globalThis.reader = started;
+globalThis.newReader = () => {
+  const worker = unused ?? start();
+  unused = null;
+  return worker;
+};

@@ -1,12 +1,12 @@
 // The side of the page that reads: one archive at a time, requests in their order, models kept open while they are
 // looked at. Only one sentence leaves it for a failure; what breaks the WebAssembly module itself is told as fatal, and
 // the page starts another worker.
-import { embeddedFiles, localFiles, servedFiles, type FileSet } from "./bytes";
+import { embeddedFiles, localFiles, servedFiles, type ByteSource, type FileSet } from "./bytes";
 import { cohortOfModel, kModelColumns, readCohort, readTable } from "./cohort";
 import { ArchiveError, Hdf5 } from "./hdf5";
 import { library, useLibrary } from "./library";
 import { ModelReader } from "./model";
-import type { Asked, Cohort, FromWorker, Opened, ProfileRequest, Requests, Table, ToWorker, Verb } from "./protocol";
+import type { Asked, Cohort, FromWorker, Opened, PackedLibrary, ProfileRequest, Requests, ServedArchive, Table, ToWorker, Verb } from "./protocol";
 
 const kMostOpen = 4;
 
@@ -17,7 +17,7 @@ class Archive {
 
   static async open(opened: Opened): Promise<Archive> {
     const files = fileSet(opened);
-    const source = files.open(opened.root);
+    const source = await openIndex(opened, files);
     if (!source) throw new ArchiveError(`there is no file '${opened.root}' in '${opened.name}'`);
     const root = await Hdf5.open(opened.root, source);
     const cohort = root.format === "lumenline-model" ? cohortOfModel(root, opened.name) : readCohort(root, opened.name);
@@ -59,7 +59,7 @@ class Archive {
     // In a packed archive the model is a group of the index itself; a link into another file is none here.
     if (this.root.isGroup(`/models/${id}`)) return { file: null, reader: new ModelReader(this.root, `/models/${id}`, id) };
     const path = `models/${id}.hdf`;
-    const source = this.files.open(path);
+    const source = await this.files.open(path);
     if (!source)
       throw new ArchiveError(`the file '${path}' of the model '${id}' is not there: open the whole archive, or run the cohort again`);
     const file = await Hdf5.open(path, source);
@@ -71,6 +71,31 @@ function fileSet(opened: Opened): FileSet {
   if (opened.kind === "served") return servedFiles(opened.base, fetched);
   if (opened.kind === "local") return localFiles(opened.files, fetched);
   return embeddedFiles(opened.files);
+}
+
+/** What the server has, whose index is read while the library is still being compiled. */
+interface Ahead {
+  archive: ServedArchive;
+  index: Promise<ByteSource | null>;
+}
+
+let ahead: Promise<Ahead | null> = Promise.resolve(null);
+
+async function readAhead(server: string): Promise<Ahead | null> {
+  const answer = await fetch(new URL("archive.json", server)).catch(() => null);
+  if (!answer?.ok) return null;
+  const { root, name } = (await answer.json()) as { root: string; name: string };
+  const base = new URL("archive/", server).href;
+  const index = servedFiles(base, fetched).open(root);
+  index.catch(() => {}); // told to whoever opens it
+  return { archive: { kind: "served", base, root, name }, index };
+}
+
+/** The index of the server's archive, once: it may be another one when it is opened again. */
+async function openIndex(opened: Opened, files: FileSet): Promise<ByteSource | null> {
+  const taken = opened.kind === "served" ? await ahead : null;
+  ahead = Promise.resolve(null);
+  return taken ? taken.index : files.open(opened.root);
 }
 
 let bytes = 0;
@@ -111,6 +136,7 @@ async function profiles(number: number, request: ProfileRequest): Promise<Reques
 }
 
 const handlers: { [V in Verb]: (ask: Requests[V]["ask"], number: number) => Promise<Requests[V]["answer"]> } = {
+  served: async () => (await ahead)?.archive ?? null,
   async open(opened) {
     archive?.close();
     archive = null;
@@ -128,7 +154,7 @@ const handlers: { [V in Verb]: (ask: Requests[V]["ask"], number: number) => Prom
 async function answer(message: Asked): Promise<void> {
   const { number, verb, ask } = message;
   try {
-    await library();
+    if (verb !== "served") await library();
     const handler = handlers[verb] as (ask: unknown, number: number) => Promise<unknown>;
     tell({ number, answer: await handler(ask, number) });
   } catch (error) {
@@ -139,9 +165,14 @@ async function answer(message: Asked): Promise<void> {
   tell({ fetched: bytes });
 }
 
+function begin(packed: PackedLibrary): void {
+  useLibrary(packed);
+  if ("server" in packed) ahead = readAhead(packed.server).catch(() => null);
+}
+
 let queue: Promise<void> = Promise.resolve();
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
-  if ("library" in data) useLibrary(data.library);
+  if ("library" in data) begin(data.library);
   else if ("cancel" in data) cancelled.add(data.cancel);
   else queue = queue.then(() => answer(data));
 };
