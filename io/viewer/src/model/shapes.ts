@@ -10,16 +10,39 @@ export interface Tubes {
   setValues(values: Float32Array | null): void;
 }
 
-/** Points of the polylines that get a ring: each as far from the one before it as the tube is thick, or at the end. */
+/** The first of the points that stand where each point stands: lines of a tree share their way to its root. */
+function firstThere(points: Float32Array): Int32Array {
+  const bits = new Uint32Array(points.buffer, points.byteOffset, points.length);
+  const buckets = new Map<number, number[]>();
+  return Int32Array.from({ length: points.length / 3 }, (_, k) => {
+    const [x, y, z] = [bits[3 * k]!, bits[3 * k + 1]!, bits[3 * k + 2]!];
+    const hash = Math.imul(x, 73856093) ^ Math.imul(y, 19349663) ^ Math.imul(z, 83492791);
+    const bucket = buckets.get(hash);
+    const known = bucket?.find((i) => bits[3 * i] === x && bits[3 * i + 1] === y && bits[3 * i + 2] === z);
+    if (known !== undefined) return known;
+    if (bucket) bucket.push(k);
+    else buckets.set(hash, [k]);
+    return k;
+  });
+}
+
+/**
+ * Points of the polylines that get a ring, tube by tube: each as far from the one before it as the tube is thick, or at
+ * an end. What an earlier line has is not drawn again.
+ */
 function ringed(points: Float32Array, offsets: ArrayLike<number>, radius: number): { at: number[]; starts: number[] } {
   const [at, starts]: [number[], number[]] = [[], []];
   const [here, last] = [new THREE.Vector3(), new THREE.Vector3()];
+  const there = firstThere(points);
+  const drawn = (k: number) => there[k]! < k && Math.abs(there[k + 1]! - there[k]!) === 1;  // the piece from point k on
   for (let line = 0; line + 1 < offsets.length; ++line) {
     const [first, end] = [offsets[line]!, offsets[line + 1]!];
-    starts.push(at.length);
     for (let k = first; k < end; ++k) {
+      const [before, after] = [k > first && !drawn(k - 1), k + 1 < end && !drawn(k)];
+      if (!before && !after && end - first > 1) continue;
       here.fromArray(points, 3 * k);
-      if (k > first && k + 1 < end && here.distanceTo(last) < kSpacing * radius) continue;
+      if (!before) starts.push(at.length);
+      else if (after && here.distanceTo(last) < kSpacing * radius) continue;
       at.push(k);
       last.copy(here);
     }

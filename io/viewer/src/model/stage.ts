@@ -7,6 +7,23 @@ import { h } from "../ui/dom";
 const kFieldOfView = 30;
 const kAir = 1.07; // around a model that is framed
 
+let graphicsCard: boolean | undefined;
+
+/** Smooth edges take software three and a half times as long to draw. */
+function hasGraphicsCard(): boolean {
+  if (graphicsCard === undefined) {
+    const probe = h("canvas", { width: 1, height: 1 }).getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+    graphicsCard = probe !== null && !/swiftshader|llvmpipe|software/i.test(rendererOf(probe));
+    probe?.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+  return graphicsCard;
+}
+
+function rendererOf(gl: WebGL2RenderingContext): string {
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  return String(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+}
+
 export class Stage {
   readonly root = h("div", { class: "scene" });
   readonly scene = new THREE.Scene();
@@ -26,7 +43,7 @@ export class Stage {
   private readonly themed = () => this.background();
 
   constructor(label: string) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false });
+    this.renderer = new THREE.WebGLRenderer({ antialias: hasGraphicsCard(), alpha: false });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
