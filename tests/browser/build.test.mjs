@@ -15,7 +15,7 @@ test("a build gives the committed page", () => {
       cwd: viewer, encoding: "utf8", env: { ...process.env, LUMENLINE_PAGE_FOLDER: folder },
     });
     assert.equal(built.status, 0, built.stdout + built.stderr);
-    for (const name of ["page.html.gz", "page.csp"])
+    for (const name of ["page.html.gz", "hdf5.wasm.gz", "page.csp"])
       assert.ok(
         readFileSync(join(folder, name)).equals(readFileSync(join(viewer, "built", name))),
         `${name} differs from the committed one: run 'npm ci && npm run build' in io/viewer and commit io/viewer/built`,
@@ -25,13 +25,16 @@ test("a build gives the committed page", () => {
   }
 });
 
-test("the page is one file that asks for nothing else", () => {
+test("the page links to nothing, and its library is WebAssembly", () => {
   const html = gunzipSync(readFileSync(join(viewer, "built/page.html.gz"))).toString("utf8");
   const outside = html.replace(/<script[^]*?<\/script>/g, "").replace(/<style>[^]*?<\/style>/g, "");
   assert.doesNotMatch(outside, /(src|href)="(?!data:)/, "something is linked");
-  assert.equal(html.split("<!--archive-->").length, 2, "one place for an archive");
+  assert.equal(html.split("<!--blocks-->").length, 2, "one place for blocks of data");
+  assert.ok(html.indexOf("<!--blocks-->") < html.indexOf("<script"), "blocks stand before what looks for them");
   assert.match(outside, /Content-Security-Policy" content="default-src 'none'; script-src 'sha256-/);
   const policy = /Content-Security-Policy" content="([^"]*)"/.exec(outside)?.[1] ?? "";
   assert.doesNotMatch(policy, /'unsafe-inline'|'unsafe-eval'|\*|https?:/);
-  assert.ok(readFileSync(join(viewer, "built/page.html.gz")).length < 2 * 1024 * 1024, "below 2 MiB");
+  const library = readFileSync(join(viewer, "built/hdf5.wasm.gz"));
+  assert.ok(WebAssembly.validate(gunzipSync(library)));
+  assert.ok(library.length < 2 * 1024 * 1024, "below 2 MiB");
 });

@@ -65,6 +65,7 @@ test("a model with any dataset damaged is shown in part or refused in one senten
     const id = name.replace(/\.hdf$/, "");
     const said = await shown(page, () => page.evaluate((hash) => (location.hash = hash), `#/model/${id}`), ".scene[data-ready]");
     if (said) checkSentence(said, name, path, harm);
+    else await page.locator(".info [data-ready]").waitFor({ state: "attached" });
     const text = await page.locator(".stage").innerText();
     const tells = text.includes(name) && text.includes(path.split("/").slice(0, 2).join("/"));
     assert.ok(tells || !kNeeded.includes(path), `${path} ${harm} is not said`);

@@ -2,7 +2,7 @@
 // is said when files are missing or damaged.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { copyFileSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
@@ -190,12 +190,24 @@ test("an archive that is written anew while it is looked at is noticed", async (
 });
 
 test("a browser that cannot start the HDF5 library is told in one sentence", async () => {
+  const said = /^the browser cannot start the HDF5 library of this page: \S/;
   const { page } = await openPage(browser);
-  await page.addInitScript(() => delete globalThis.DecompressionStream);
-  await page.goto(pathToFileURL(written("whole.html")).href);
+  writePage("whole.html");
+  const html = readFileSync(written("whole.html"), "utf8");
+  const libraries = { "of other bytes": "AAAA", "of no base64": "<>", "cut short": /id="hdf5-library">([^<]*)/.exec(html)[1].slice(0, 4000) };
+  for (const [what, bytes] of Object.entries(libraries)) {
+    writeFileSync(written("broken.html"), html.replace(/(id="hdf5-library">)[^<]*/, (_, tag) => tag + bytes));
+    await page.goto(pathToFileURL(written("broken.html")).href);
+    await page.waitForSelector(".error");
+    assert.match(await page.locator(".error p").first().innerText(), said, what);
+  }
+  const server = await serve(join(archives, "good"), "--port", "0");
+  await page.context().route("**/hdf5.wasm", (route) => route.abort());
+  await page.goto(server.address);
   await page.waitForSelector(".error");
-  assert.match(await page.locator(".error p").first().innerText(), /^the browser cannot start the HDF5 library of this page: /);
+  assert.match(await page.locator(".error p").first().innerText(), said);
   await page.close();
+  await server.stop();
 });
 
 test("a server that ended is said", async () => {

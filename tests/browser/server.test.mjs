@@ -5,6 +5,7 @@ import { connect } from "node:net";
 import { networkInterfaces } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { gunzipSync } from "node:zlib";
 import { archives, serve } from "./support.mjs";
 
 let server;
@@ -47,6 +48,13 @@ test("the page, what the archive is, and its files are given", async () => {
   const plain = await raw("/");
   assert.equal(plain.headers["content-encoding"], undefined);
   assert.match(plain.body.toString("utf8", 0, 100), /<!doctype html>/);
+  const packed = await raw("/hdf5.wasm", { headers: ["Accept-Encoding: gzip, br"] });
+  assert.equal(packed.headers["content-encoding"], "gzip");
+  assert.equal(packed.headers["content-type"], "application/wasm");
+  const library = await raw("/hdf5.wasm");
+  assert.equal(library.headers["content-encoding"], undefined);
+  assert.ok(library.body.equals(gunzipSync(packed.body)) && WebAssembly.validate(library.body));
+  for (const path of ["/", "/hdf5.wasm"]) assert.equal((await raw(path, { headers: ["Range: bytes=0-9"] })).status, 416, path);
   assert.deepEqual(JSON.parse((await raw("/archive.json")).body), { root: "cohort.h5", name: "good" });
   assert.ok((await raw("/archive/cohort.h5")).body.equals(file()));
   const model = await raw("/archive/models/torus.hdf");

@@ -6,7 +6,7 @@ import { ArchiveError, type Hdf5, type DatasetInfo } from "./hdf5";
 import { interpolated } from "./interpolate";
 import { Places } from "./places";
 import { boxOf, centred, type Point } from "./points";
-import type { Ends, Field, Finding, LinesPart, Model, Profile, Site, SurfacePart, Voronoi } from "./protocol";
+import type { Ends, Field, Finding, LinesPart, Marks, Model, Profile, Site, SurfacePart, Voronoi } from "./protocol";
 import { labelOf, symbolOf } from "./words";
 
 /** Categories are ids; of integers, these are measures or pointers instead. */
@@ -93,7 +93,6 @@ export class ModelReader {
       surface: null,
       lines: null,
       ends: null,
-      marks: [],
       voronoi: null,
       notes,
     };
@@ -101,16 +100,22 @@ export class ModelReader {
     if (attributes["fields"] !== "lines") model.surface = this.part("/surface", notes, () => this.surface(model));
     model.lines = this.part("/centerlines", notes, () => this.lines(model));
     model.ends = this.part("/endpoints", notes, () => this.ends());
-    for (const name of ["branches", "bifurcations", "sections", "stenoses", "dilations", "loops"]) {
-      const marked = this.part(`/${name}`, notes, () => new Places(this.file, this.root, this.centre).read(name));
-      if (marked && marked.table.rows > 0) model.marks.push(marked);
-    }
     model.voronoi = this.part("/voronoi", notes, () => {
       const vertices = this.rows("/voronoi/vertices", 3);
       return { vertices, polygons: this.rows("/voronoi/polygon_offsets") - 1, fields: this.fields("/voronoi", vertices) };
     });
     if (model.surface && model.lines) this.derive(model.surface, model.lines);
     return model;
+  }
+
+  /** Apart from the geometry, which is looked at first. */
+  marks(): Marks {
+    const notes: string[] = [];
+    const tables = ["branches", "bifurcations", "sections", "stenoses", "dilations", "loops"].flatMap((name) => {
+      const marked = this.part(`/${name}`, notes, () => new Places(this.file, this.root, this.centre).read(name));
+      return marked && marked.table.rows > 0 ? [marked] : [];
+    });
+    return { tables, notes };
   }
 
   private surface(model: Model): SurfacePart {

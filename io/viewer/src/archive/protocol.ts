@@ -108,8 +108,13 @@ export interface Model {
   surface: SurfacePart | null;
   lines: LinesPart | null;
   ends: Ends | null;
-  marks: MarkedTable[];
   voronoi: { vertices: number; polygons: number; fields: Field[] } | null;
+  notes: string[];
+}
+
+/** What has a place in a model beside its geometry: sections and the like. */
+export interface Marks {
+  tables: MarkedTable[];
   notes: string[];
 }
 
@@ -149,6 +154,7 @@ export interface Requests {
   open: { ask: Opened; answer: Cohort };
   table: { ask: string; answer: Table };
   model: { ask: string; answer: Model };
+  marks: { ask: string; answer: Marks };
   field: { ask: { id: string; path: string; row: number }; answer: Float32Array };
   voronoi: { ask: string; answer: Voronoi };
   site: { ask: { id: string; index: number }; answer: Site };

@@ -145,6 +145,7 @@ const handlers: { [V in Verb]: (ask: Requests[V]["ask"], number: number) => Prom
   },
   table: async (name) => current().table(name),
   model: async (id) => (await current().model(id)).read(),
+  marks: async (id) => (await current().model(id)).marks(),
   field: async ({ id, path, row }) => (await current().model(id)).field(path, row),
   voronoi: async (id) => (await current().model(id)).voronoi(),
   site: async ({ id, index }) => (await current().model(id)).site(index),

@@ -25,6 +25,8 @@ function wayWords(site: Site): string {
 
 export class Info {
   readonly root = h("aside", { class: "info", "aria-label": "facts" });
+  private readonly notes = h("div");
+  private readonly tables = h("div");
   private readonly pickedPart = h("section", { class: "picked", role: "status" });
 
   constructor(private readonly model: Model, cohort: Cohort | null, private readonly unpick: () => void) {
@@ -34,14 +36,26 @@ export class Info {
       h("section", {},
         h("h1", { title: model.id }, model.id), h("p", {}, h("span", { class: `status ${statusClass(status)}` }, status)),
         sentence !== undefined && h("p", { class: "problem" }, String(sentence)),
-        model.notes.map((note) => h("p", { class: "problem" }, note)),
+        this.notes,
         list([...this.labels(), ...model.covariates.filter(([, value]) => value !== "")])),
       this.pickedPart,
       cohort && !cohort.isModelFile && this.measures(cohort),
       this.findings(),
-      model.marks.map((marked) => this.marked(marked)),
+      this.tables,
       this.provenance());
+    this.note(model.notes);
     this.showSite(null);
+  }
+
+  private note(sentences: string[]): void {
+    this.notes.append(...sentences.map((sentence) => h("p", { class: "problem" }, sentence)));
+  }
+
+  /** What has a place in the model, and what could not be read of it. */
+  showMarks(marks: MarkedTable[], notes: string[]): void {
+    this.note(notes);
+    fill(this.tables, marks.map((marked) => this.marked(marked)));
+    this.tables.dataset.ready = "1";
   }
 
   private labels(): Pair[] {

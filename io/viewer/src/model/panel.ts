@@ -1,5 +1,5 @@
 // The controls of a model, on the left: one block per layer, only for layers that the model has.
-import type { Field, Model } from "../archive/protocol";
+import type { Field, MarkedTable, Model } from "../archive/protocol";
 import { unitText } from "../archive/words";
 import { kMapNames, type MapName } from "../ui/colours";
 import { checkbox, choice, fill, h, slider } from "../ui/dom";
@@ -21,11 +21,18 @@ export const markName = (name: string): string => kMarkNames[name] ?? name;
 
 export class Panel {
   readonly root = h("aside", { class: "panel", "aria-label": "what is shown" });
+  private readonly marksPart = h("section", {});
+  private marks: MarkedTable[] = [];
 
   constructor(
     private readonly model: Model, private readonly get: () => Settings, private readonly set: (settings: Settings) => void,
   ) {
     this.draw();
+  }
+
+  offerMarks(marks: MarkedTable[]): void {
+    this.marks = marks;
+    this.drawMarks();
   }
 
   private change(part: Partial<Settings>, redraw = false): void {
@@ -50,6 +57,7 @@ export class Panel {
   draw(): void {
     const { model } = this;
     const settings = this.get();
+    this.drawMarks();
     const presets = kPresets.filter((preset) => preset.available(model)).map((preset) =>
       h("button", {
         type: "button", role: "radio", title: preset.title, "aria-checked": String(this.shows(preset.settings)),
@@ -62,6 +70,7 @@ export class Panel {
       model.voronoi && this.block("Voronoi diagram", settings.voronoi, (voronoi) => this.change({ voronoi }, true),
         choice("Colour", options(model.voronoi.fields, "plain"), settings.voronoiBy, (voronoiBy) => this.change({ voronoiBy })).root),
       this.others(settings),
+      this.marksPart,
       h("section", {},
         choice("Colour map", kMapNames.map((name) => [name, name] as const), settings.map, (map) => this.change({ map: map as MapName })).root,
         checkbox("Colours span all values", settings.whole, (whole) => this.change({ whole }))));
@@ -90,13 +99,15 @@ export class Panel {
     if (model.ends) boxes.push(checkbox("Ends", settings.ends, (ends) => this.change({ ends })));
     if ((model.surface?.added.length ?? 0) > 0)
       boxes.push(checkbox("Extensions and caps", settings.added, (added) => this.change({ added })));
-    for (const marked of model.marks) {
-      if (!marked.points && !marked.outlines) continue;
-      boxes.push(checkbox(`${markName(marked.name)} (${marked.table.rows})`, settings.marks.includes(marked.name), (on) => {
+    return boxes.length > 0 && h("section", {}, boxes);
+  }
+
+  private drawMarks(): void {
+    const settings = this.get();
+    fill(this.marksPart, this.marks.filter((marked) => marked.points || marked.outlines).map((marked) =>
+      checkbox(`${markName(marked.name)} (${marked.table.rows})`, settings.marks.includes(marked.name), (on) => {
         const others = this.get().marks.filter((name) => name !== marked.name);
         this.change({ marks: on ? [...others, marked.name] : others });
-      }));
-    }
-    return boxes.length > 0 && h("section", {}, boxes);
+      })));
   }
 }

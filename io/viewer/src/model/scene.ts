@@ -1,7 +1,7 @@
 // A model in three dimensions, in layers that are made when they are first shown: wall, lines, balls, Voronoi diagram,
 // marks, and what was picked. It draws what it is told and knows nothing of panels and addresses.
 import * as THREE from "three";
-import type { Model, Site, Voronoi } from "../archive/protocol";
+import type { MarkedTable, Model, Site, Voronoi } from "../archive/protocol";
 import { FieldMaterial, forMaterial, type Look } from "./material";
 import { setValues, tubes, valued, type Tubes } from "./shapes";
 import { Stage } from "./stage";
@@ -248,12 +248,11 @@ export class ModelScene {
     return new THREE.Mesh(made.geometry, new FieldMaterial(colour));
   }
 
-  showMarks(name: string, on: boolean): void {
-    const known = this.marks.get(name);
+  showMarks(marked: MarkedTable, on: boolean): void {
+    const known = this.marks.get(marked.name);
     if (known) this.remove(known);
-    this.marks.delete(name);
-    const marked = this.model.marks.find((candidate) => candidate.name === name);
-    if (!on || !marked) return;
+    this.marks.delete(marked.name);
+    if (!on) return;
     const group = new THREE.Group();
     if (marked.outlines) {
       const made = tubes(marked.outlines.points, marked.outlines.offsets, this.thickness * 0.45);
@@ -262,7 +261,7 @@ export class ModelScene {
       for (let i = 0; i < marked.points.length; i += 3)
         if (Number.isFinite(marked.points[i]!))
           group.add(this.dot([...marked.points.slice(i, i + 3)] as [number, number, number], 2.6, kMark));
-    this.marks.set(name, this.add(group, 3));
+    this.marks.set(marked.name, this.add(group, 3));
     this.stage.redraw();
   }
 

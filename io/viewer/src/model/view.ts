@@ -2,7 +2,7 @@
 // it is told by one set of settings, which the address repeats.
 import * as THREE from "three";
 import type { App, View } from "../app";
-import type { Field, LinesPart, Model } from "../archive/protocol";
+import type { Field, LinesPart, MarkedTable, Model } from "../archive/protocol";
 import { download, fill, h, number, withUnits } from "../ui/dom";
 import { extent, quantile, sortedFinite } from "../ui/scale";
 import { unitText } from "../archive/words";
@@ -70,6 +70,7 @@ class Loaded {
   private readonly readout = h("output", { class: "readout" });
   private readonly place = h("input", { type: "range", min: 0, max: 1, step: 0.001, "aria-label": "place along the line" });
   private readonly fields = new Map<string, Promise<Float32Array>>();
+  private marks: MarkedTable[] = [];
   private drawing = 0;
   private shownBars: Bar[] = [];
   private rememberAt = 0;
@@ -99,8 +100,7 @@ class Loaded {
     this.scene.stage.onMoved = () => this.remember();
     this.scene.stage.onDrawn = () => this.labels.place();
     this.scene.stage.onClick((x, y) => this.clicked(x, y));
-    void this.draw();
-    void this.drawProfile();
+    void Promise.all([this.draw(), this.drawProfile()]).then(() => this.readMarks());
     if (this.settings.site >= 0) void this.pick(this.settings.site);
   }
 
@@ -217,7 +217,7 @@ class Loaded {
       scene.chooseLine(settings.line, settings.lines && settings.balls !== "none");
       scene.showTrain(settings.balls === "all", settings.line, this.look(balls, 0.45), balls?.values ?? null);
       scene.showPolygons(settings.voronoi, settings.added, voronoi, this.look(polygons, 1), polygons?.values ?? null);
-      for (const marked of model.marks) scene.showMarks(marked.name, settings.marks.includes(marked.name));
+      for (const marked of this.marks) scene.showMarks(marked, settings.marks.includes(marked.name));
       this.labels.show(settings.ends);
       this.shownBars = [wall, polygons, lines].flatMap((shown) => (shown ? [shown.bar] : []));
       fill(this.bars, this.shownBars.map(colourBar));
@@ -226,6 +226,21 @@ class Loaded {
     } catch (error) {
       fill(this.bars, h("p", { class: "problem", role: "alert" }, error instanceof Error ? error.message : String(error)));
     }
+  }
+
+  /** What can wait until there is something to look at. */
+  private async readMarks(): Promise<void> {
+    let notes: string[];
+    try {
+      const found = await this.app.client.call("marks", this.model.id);
+      this.marks = found.tables;
+      notes = found.notes;
+    } catch (error) {
+      notes = [error instanceof Error ? error.message : String(error)];
+    }
+    this.panel.offerMarks(this.marks);
+    this.info.showMarks(this.marks, notes);
+    if (this.settings.marks.length > 0) void this.draw();
   }
 
   private async drawProfile(): Promise<void> {
