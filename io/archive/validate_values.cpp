@@ -75,9 +75,9 @@ void check_rise(Inspection& inspection, const Specified& entry, const std::vecto
 }
 
 void check_words(Inspection& inspection, const Specified& entry) {
+    const std::vector<std::string> texts = inspection.strings(entry.path);  // any are to be readable
     if (entry.rule.words == nullptr) return;
     const std::string known = std::string("|") + entry.rule.words + "|";
-    const std::vector<std::string> texts = inspection.strings(entry.path);
     inspection.all_hold(entry.path, texts.size(), [&](std::size_t k) {
         const bool is_known = !texts[k].empty() && known.find("|" + texts[k] + "|") != known.npos;
         return is_known ? std::string() : at_place("'" + texts[k] + "' is none of " + entry.rule.words, k);

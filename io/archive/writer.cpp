@@ -83,8 +83,8 @@ Writer::Writer(const std::filesystem::path& file, std::string_view length_unit)
     const std::string name = temporary_of(file).string();
     const Handle access = sink_.access();
     checked(H5Pset_meta_block_size(access.get(), kHeadersTogether), "file access");
-    file_ = Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, without_times(H5P_FILE_CREATE).get(), access.get()),
-                   H5Fclose, name);
+    file_ = Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, without_times(H5P_FILE_CREATE).get(), access.get()), H5Fclose,
+                   name);
 }
 
 Writer::~Writer() {

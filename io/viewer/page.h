@@ -5,7 +5,8 @@
 
 namespace lumenline {
 
-/// The page that shows an archive (io/viewer/src), as it is built and committed: gzipped HTML that holds kBlocksMark once.
+/// The page that shows an archive (io/viewer/src), as it is built and committed: gzipped HTML that holds kBlocksMark
+/// once.
 std::string_view page_gzip();
 
 /// The WebAssembly of the HDF5 library that the page asks its server for at `hdf5.wasm`, gzipped.

@@ -1,7 +1,6 @@
-// Every dataset in turn removed, cut short or of another type: the page shows what is left, or says one sentence with
-// the file and the dataset, and goes on with the next. LUMENLINE_DAMAGE=all tries the three on each dataset; else they
-// take turns on some, and all are tried on
-// those that nothing can be shown without.
+// Every dataset in turn removed, cut short, of another type or not readable: the page shows what is left, or says one
+// sentence with the file and the dataset, and goes on with the next. LUMENLINE_DAMAGE=all tries the four on each dataset;
+// else they take turns on some, and all are tried on those that nothing can be shown without.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { cpSync, rmSync } from "node:fs";

@@ -1,5 +1,5 @@
-// `damaged_files FILE FOLDER`: copies of a model file or index, in each of which one dataset is removed, cut short or
-// of another type. Prints name, dataset and damage of each, for readers that are not programs of ours.
+// `damaged_files FILE FOLDER`: copies of a model file or index, in each of which one dataset is removed, cut short, of
+// another type or not readable. Prints name, dataset and damage of each, for readers that are not programs of ours.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
         int number = 0;
         for (const ArchiveNode& node : ArchiveFile(file).nodes()) {
             if (node.is_group) continue;
-            for (const damage::Harm harm : {damage::Harm::kRemoved, damage::Harm::kShortened, damage::Harm::kRetyped}) {
+            for (const damage::Harm harm : damage::kHarms) {
                 const std::string name = std::to_string(number++) + file.extension().string();
                 fs::copy_file(file, folder / name, fs::copy_options::overwrite_existing);
                 if (damage::harm_dataset(folder / name, node.path, harm))

@@ -69,8 +69,28 @@ std::filesystem::path whole_model(const std::filesystem::path& archive) {
 }
 
 const char* name_of(Harm harm) {
-    return harm == Harm::kRemoved ? "removed" : harm == Harm::kShortened ? "shortened" : "retyped";
+    switch (harm) {
+        case Harm::kRemoved: return "removed";
+        case Harm::kShortened: return "shortened";
+        case Harm::kRetyped: return "retyped";
+        case Harm::kGarbled: return "garbled";
+    }
+    return "";
 }
+
+namespace {
+
+/// Changes bytes of a dataset's one chunk behind the back of its checksum.
+void garble_chunk(hid_t dataset, int rank, std::size_t bytes, const std::string& path) {
+    const std::vector<hsize_t> origin(static_cast<std::size_t>(rank), 0);
+    std::vector<char> chunk(bytes + 4);  // Fletcher's checksum behind the values
+    std::uint32_t unused = 0;
+    hdf::checked(H5Dread_chunk(dataset, H5P_DEFAULT, origin.data(), &unused, chunk.data()), path);
+    chunk.front() = static_cast<char>(chunk.front() ^ 0x55);
+    hdf::checked(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, origin.data(), chunk.size(), chunk.data()), path);
+}
+
+}  // namespace
 
 bool harm_dataset(const std::filesystem::path& file, const std::string& path, Harm harm) {
     const Handle raw = open_file(file);
@@ -82,21 +102,27 @@ bool harm_dataset(const std::filesystem::path& file, const std::string& path, Ha
     const Handle type(H5Dget_type(before.get()), H5Tclose, path), space(H5Dget_space(before.get()), H5Sclose, path);
     hsize_t shape[H5S_MAX_RANK] = {};
     const int rank = H5Sget_simple_extent_dims(space.get(), shape, nullptr);
-    if (harm == Harm::kShortened && (rank == 0 || shape[0] == 0)) return false;
+    if (harm != Harm::kRetyped && (rank == 0 || H5Sget_simple_extent_npoints(space.get()) == 0)) return false;
     if (harm == Harm::kShortened) --shape[0];
     const bool is_text = H5Tget_class(type.get()) == H5T_STRING;
     const Handle other(
-        harm == Harm::kShortened ? H5Tcopy(type.get()) : H5Tcopy(is_text ? H5T_STD_I32LE : hdf::string_type(4).get()),
+        harm != Harm::kRetyped ? H5Tcopy(type.get()) : H5Tcopy(is_text ? H5T_STD_I32LE : hdf::string_type(4).get()),
         H5Tclose, path);
-    const Handle extent = hdf::extent(rank, shape);
+    const Handle extent = hdf::extent(rank, shape), properties = hdf::property_list(H5P_DATASET_CREATE);
+    if (harm == Harm::kGarbled) {
+        hdf::checked(H5Pset_chunk(properties.get(), rank, shape), path);
+        hdf::checked(H5Pset_fletcher32(properties.get()), path);
+    }
     const Handle after(
-        H5Dcreate2(raw.get(), "/damaged", other.get(), extent.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-        path);
-    if (harm == Harm::kShortened) {
+        H5Dcreate2(raw.get(), "/damaged", other.get(), extent.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        H5Dclose, path);
+    if (harm != Harm::kRetyped) {
         std::vector<char> values(H5Tget_size(type.get()) *
                                  static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
         hdf::checked(H5Dread(before.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
         hdf::checked(H5Dwrite(after.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
+        hdf::checked(H5Dflush(after.get()), path);
+        if (harm == Harm::kGarbled) garble_chunk(after.get(), rank, values.size(), path);
     }
     hid_t target = after.get();
     hsize_t position = 0;

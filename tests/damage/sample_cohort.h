@@ -20,12 +20,13 @@ std::filesystem::path sample_cohort();
 /// Its model file of everything.
 std::filesystem::path whole_model(const std::filesystem::path& archive);
 
-/// What is done to a dataset.
-enum class Harm { kRemoved, kShortened, kRetyped };
+/// What is done to a dataset. Garbled: bytes of it do not fit their checksum, so that HDF5 refuses to read them.
+enum class Harm { kRemoved, kShortened, kRetyped, kGarbled };
+inline constexpr Harm kHarms[] = {Harm::kRemoved, Harm::kShortened, Harm::kRetyped, Harm::kGarbled};
 const char* name_of(Harm harm);
 
 /// Damages one dataset of a file; its attributes stay.
-/// @returns false where that cannot be done: a scalar and what has no rows cannot be shortened
+/// @returns false where that cannot be done: a scalar and what has no rows can be neither shortened nor garbled
 bool harm_dataset(const std::filesystem::path& file, const std::string& path, Harm harm);
 
 /// Changes the values of a dataset of numbers, which keeps its type.

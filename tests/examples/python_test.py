@@ -31,7 +31,14 @@ def damage(file, path, harm):
             return
         if harm == "retype":
             values = np.zeros(np.shape(values), "i4" if values.dtype.kind == "S" else "S4")
-        opened[path] = values[:-1] if harm == "shorten" and np.ndim(values) else values
+        if harm == "garble" and np.size(values) > 0 and np.ndim(values) > 0:
+            made = opened.create_dataset(path, data=values, chunks=np.shape(values), fletcher32=True)
+            opened.flush()
+            origin = (0,) * np.ndim(values)
+            _, chunk = made.id.read_direct_chunk(origin)
+            made.id.write_direct_chunk(origin, bytes([chunk[0] ^ 0x55]) + chunk[1:])
+        else:
+            opened[path] = values[:-1] if harm == "shorten" and np.ndim(values) else values
         opened[path].attrs.update(attributes)
 
 
@@ -107,7 +114,7 @@ class Reader(unittest.TestCase):
         self.assertIn("point_x", endpoints)
 
     def test_damage_gives_one_sentence(self):
-        """Datasets in turn removed, cut short and of another type: what reads them works, or says one sentence."""
+        """Datasets in turn removed, cut short, of another type and not readable: what reads them works, or says one sentence."""
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder) / "copy"
             shutil.copytree(ARCHIVE, copy)
@@ -115,7 +122,7 @@ class Reader(unittest.TestCase):
             of_use = {"models/wide.hdf": ["/centerlines/offsets", "/centerlines/points", "/surface/triangles"],
                       "cohort.h5": ["/tables/models/id", "/tables/models/status"]}
             for name in of_use:
-                for harm in ("remove", "shorten", "retype"):
+                for harm in ("remove", "shorten", "retype", "garble"):
                     for path in datasets_of(ARCHIVE / name)[::37] + of_use[name]:
                         damage(copy / name, path, harm)
                         refused += sentences(copy, path, self)

@@ -39,6 +39,8 @@ export class Stage {
   onMoved: () => void = () => {};
   onDrawn: () => void = () => {};
   private asked = false;
+  private width = 0; // kept: to ask the browser between changes of labels makes it lay the page out anew for each
+  private height = 0;
   private readonly observer: ResizeObserver;
   private readonly themed = () => this.background();
 
@@ -108,6 +110,7 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.root;
     if (!(width > 0 && height > 0)) return;
+    [this.width, this.height] = [width, height];
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -209,7 +212,7 @@ export class Stage {
   project(point: THREE.Vector3): { x: number; y: number } | null {
     const at = point.clone().project(this.camera);
     if (at.z > 1 || at.z < -1) return null;
-    return { x: ((at.x + 1) / 2) * this.root.clientWidth, y: ((1 - at.y) / 2) * this.root.clientHeight };
+    return { x: ((at.x + 1) / 2) * this.width, y: ((1 - at.y) / 2) * this.height };
   }
 
   ray(x: number, y: number): THREE.Raycaster {
