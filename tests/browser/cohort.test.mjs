@@ -27,6 +27,14 @@ test("the table has every model, also one whose name is markup", async () => {
   assert.equal(await page.locator(".count").innerText(), "7 models");
 });
 
+test("a covariate has the name and the letters of the table, also one that is named as a column of the program", async () => {
+  const headings = await page.locator("table.models th .label").allTextContents();
+  const column = headings.indexOf("edge_over_radius");
+  assert.ok(column > 0, headings.join(", "));
+  const row = page.locator("table.models tr[data-row]").filter({ has: page.locator("a", { hasText: /^stenosis$/ }) });
+  assert.equal(await row.locator("td").nth(column).innerText(), "mäßig");
+});
+
 test("failures have their sentences", async () => {
   const failures = page.locator(".failures");
   assert.match(await failures.innerText(), /1 model failed/);

@@ -38,14 +38,14 @@ function cohort() {
   must(binary, ["phantom", "tree", "-o", "tree.ply", "--leaves", "2", "--points-around", "20"], { cwd: archives });
   writeFileSync(join(archives, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1\n");
   const rows = [
-    ["id", "surface", "group", "age", "remark"],
-    ["stenosis", "stenosis.ply", "patient", "61", "narrow"],
-    ["torus", "torus.ply", "control", "44", hostileText],
-    ["helix", "helix.ply", "control", "39", ""],
-    ["cylinder", "cylinder.ply", "control", "52", ""],
-    ["tree", "tree.ply", "patient", "70", "branches"],
-    [kPlaceholder, "torus.ply", "control", "33", ""],
-    ["broken", "broken.ply", "patient", "n/a", ""],
+    ["id", "surface", "group", "age", "remark", "edge_over_radius"],
+    ["stenosis", "stenosis.ply", "patient", "61", "narrow", "mäßig"],
+    ["torus", "torus.ply", "control", "44", hostileText, "klein"],
+    ["helix", "helix.ply", "control", "39", "", ""],
+    ["cylinder", "cylinder.ply", "control", "52", "", "groß"],
+    ["tree", "tree.ply", "patient", "70", "branches", "groß"],
+    [kPlaceholder, "torus.ply", "control", "33", "", ""],
+    ["broken", "broken.ply", "patient", "n/a", "", ""],
   ];
   writeFileSync(join(archives, "models.tsv"), rows.map((row) => row.join("\t")).join("\n") + "\n");
   writeFileSync(join(archives, "cohort.yaml"), "cohort: browser\nlength_unit: mm\nmodels: {table: models.tsv}\narchive: {directory: good}\n");

@@ -267,7 +267,7 @@ function raw(set: Dataset, row?: number): Uint8Array<ArrayBuffer> {
   const from = count && count.map((_, axis) => BigInt(axis === 0 ? row! : 0));
   const bytes = size * (row === undefined ? Number(total_size) : Number(total_size) / shape[0]!);
   const at = Module._malloc(bytes);
-  if (at === 0) throw new RangeError("no memory");
+  if (at === 0) throw new Error("no memory");
   try {
     const status = Module.get_dataset_data(set.file_id, set.path, count, from, count && count.map(() => 1n), BigInt(at));
     if (status < 0) throw new Error("HDF5 cannot read it");
@@ -289,15 +289,15 @@ function numbersOf(set: Dataset, { buffer }: Uint8Array<ArrayBuffer>): Numbers {
   return values instanceof BigInt64Array || values instanceof BigUint64Array ? Float64Array.from(values, Number) : values;
 }
 
-/** Texts of `size` bytes each, ended by a zero if shorter: decoded at once, as h5wasm does one by one in fifty times the time. */
+/** Texts of `size` bytes each, ended by a zero if shorter: decoded at once, where h5wasm takes them one by one. */
 function texts(bytes: Uint8Array, size: number): string[] {
   const count = bytes.length / size;
   const utf8 = new TextDecoder();
   const all = utf8.decode(bytes);
-  if (all.length !== bytes.length) {  // some letters have several bytes
-    return Array.from({ length: count }, (_, i) => upToZero(utf8.decode(bytes.subarray(i * size, (i + 1) * size))));
-  }
-  return Array.from({ length: count }, (_, i) => upToZero(all.slice(i * size, (i + 1) * size)));
+  const cut = all.length === bytes.length // else some letters have several bytes
+    ? (from: number) => all.slice(from, from + size)
+    : (from: number) => utf8.decode(bytes.subarray(from, from + size));
+  return Array.from({ length: count }, (_, i) => upToZero(cut(i * size)));
 }
 
 function upToZero(text: string): string {
