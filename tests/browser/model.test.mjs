@@ -153,6 +153,21 @@ test("keys turn, look and step", async () => {
   await drawn(page);
 });
 
+test("a view that is left at the moment when it writes itself into the address does not come back", async () => {
+  await open("tree");
+  await page.evaluate(() => {
+    const [real, late] = [window.setTimeout, []];
+    window.setTimeout = (act, wait, ...rest) => (wait === 250 ? late.push(act) && 0 : real(act, wait, ...rest));
+    document.querySelector(".scene canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+    if (late.length === 0) throw new Error("the address does not follow the camera after 250 ms any more");
+    location.hash = "#/model/torus"; // told to the page in an event of its own, a little later
+    for (const act of late) act();
+    window.setTimeout = real;
+  });
+  await page.waitForFunction(() => document.querySelector(".info h1")?.innerText === "torus");
+  assert.match(page.url(), /#\/model\/torus/);
+});
+
 test("ends are named, and a name that is markup stays text", async () => {
   await open(hostileId);
   assert.equal(await page.locator(".info h1").innerText(), hostileId);

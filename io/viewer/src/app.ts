@@ -44,7 +44,7 @@ export class App {
   private readonly nav = h("nav", { "aria-label": "views" });
   private readonly title = h("span", { class: "archive-name" });
   private readonly progress = h("span", { class: "progress", role: "status" });
-  private written: string | null = null; // what this program put there itself
+  private address = ""; // of the view that is shown
 
   constructor(root: Element) {
     const themeButton = h("button", { type: "button", class: "quiet", on: { click: () => (nextTheme(), name()) } });
@@ -61,7 +61,7 @@ export class App {
       fill(this.progress, busy && "reading", bytes > 0 && ` ${(bytes / 1e6).toFixed(1)} MB`);
     };
     addEventListener("hashchange", () => {
-      if (location.hash !== this.written) this.route();
+      if (location.hash !== this.address) this.route();
     });
     window.addEventListener("keydown", (event) => this.key(event));
   }
@@ -99,8 +99,9 @@ export class App {
 
   /** Writes the state of the view that is shown into the address, without a step in the history. */
   remember(hash: string): void {
-    this.written = hash;
+    if (location.hash !== this.address) return; // another view was asked for, and the event that tells is on its way
     this.replace(hash);
+    this.address = location.hash;
   }
 
   fail(error: unknown): void {
@@ -123,7 +124,7 @@ export class App {
 
   private route(): void {
     if (!this.cohort) return;
-    this.written = null;
+    this.address = location.hash;
     const { view, ids, state } = parseRoute(location.hash);
     this.navigate(view, ids);
     if (view === "model") this.show(new ModelView(this, ids[0] ?? "", state));
