@@ -117,6 +117,33 @@ test("a link brings the view back", async () => {
   await other.page.close();
 });
 
+test("sections and bifurcations are drawn over the model, their tables stand beside it, and a link has them", async () => {
+  await open("tree");
+  const box = (name) => page.getByRole("checkbox", { name: new RegExp(`^${name} \\(`) });
+  await box("Sections").waitFor();
+  const bare = await picture(page.locator(".scene"), "model-without-sections");
+  const cut = await after_(() => box("Sections").check(), "model-sections");
+  assert.ok(difference(bare, cut) > 0.01, "sections");
+  const both = await after_(() => box("Bifurcations").check(), "model-sections-and-bifurcations");
+  assert.ok(difference(cut, both) > 0.0002, "bifurcations");
+  const table = page.locator(".info details", { has: page.locator("summary", { hasText: /^Sections/ }) });
+  await table.locator("summary").click();
+  assert.equal(await table.locator("tbody tr").count(), Number(/\((\d+)\)/.exec(await table.locator("summary").innerText())[1]));
+  assert.match(await table.locator("thead").innerText(), /area \[mm/i);
+  await page.waitForFunction(() => location.hash.includes("bifurcations"));
+  const other = await openPage(browser);
+  await other.page.goto(page.url());
+  await other.page.locator(".info [data-ready]").waitFor({ state: "attached" });
+  await other.page.waitForFunction(() => Number(document.querySelector(".scene").dataset.ready) > 1);
+  await drawn(other.page);
+  // The address has rounded numbers of the camera, and thin circles tell.
+  const restored = await picture(other.page.locator(".scene"), "model-sections-restored");
+  const [near, far] = [difference(both, restored), difference(bare, restored)];
+  assert.ok(near < far / 2, `${near} from what the link was made of, ${far} from the model without sections`);
+  assert.deepEqual(other.problems, []);
+  await other.page.close();
+});
+
 test("addresses that make no sense show the model as usual", async () => {
   await page.goto(`${server.address}#/`);
   await page.goto(`${server.address}#/model/stenosis?opacity=x&line=77&at=9&map=rainbow&balls=many&wallBy=nothing&cam=1,2&site=99999999`);
