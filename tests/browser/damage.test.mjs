@@ -7,7 +7,7 @@ import { cpSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
-import { archives, binary, chromium, damaging, openPage, serve } from "./support.mjs";
+import { archives, binary, chromium, content, damaging, openPage, picture, serve } from "./support.mjs";
 
 let browser;
 before(async () => (browser = await chromium()));
@@ -22,7 +22,7 @@ function damagedFiles(file, folder, step) {
   assert.equal(done.status, 0, done.stderr);
   const all = done.stdout.trim().split("\n").map((line) => line.split("\t"));
   const datasets = [...new Set(all.map(([, path]) => path))];
-  if (process.env.LUMENLINE_DAMAGE === "all") return all;
+  if (process.env.LUMENLINE_DAMAGE === "all" || step === 1) return all;
   return datasets.flatMap((path, k) => {
     const ways = all.filter((entry) => entry[1] === path);
     return kNeeded.includes(path) ? ways : k % step === 0 ? [ways[(k / step) % ways.length]] : [];
@@ -73,6 +73,33 @@ test("a model with any dataset damaged is shown in part or refused in one senten
   }
   console.log(`${files.length} damaged models: ${told} are told, and all that is left is shown`);
   assert.equal(await shown(page, () => page.evaluate(() => (location.hash = "#/model/tree")), ".scene[data-ready]"), "");
+  await page.close();
+});
+
+test("a quantity that cannot be read is said, and the model is shown without it, also beside another", async (t) => {
+  const folder = join(archives, "garbled");
+  rmSync(folder, { recursive: true, force: true });
+  cpSync(join(archives, "good"), folder, { recursive: true });
+  const [copy] = damagedFiles("models/tree.hdf", join(folder, "copies"), 1).find(([, path, harm]) => path === "/surface/geodesic_distance" && harm === "garbled");
+  cpSync(join(folder, "copies", copy), join(folder, "models/tree.hdf"));
+  const [error] = damagedFiles("models/torus.hdf", join(folder, "copies"), 1).find(([, path, harm]) => path === "/centerlines/radius_error" && harm === "garbled");
+  cpSync(join(folder, "copies", error), join(folder, "models/torus.hdf"));
+  const server = await serve(folder, "--port", "0");
+  t.after(() => server.stop());
+  const { page, problems } = await openPage(browser);
+  await page.goto(`${server.address}#/model/tree?wallBy=geodesic_distance&opacity=1`);
+  await page.waitForSelector(".scene[data-ready]");
+  assert.match(await page.locator(".bars .problem").innerText(), /tree\.hdf.*\/surface\/geodesic_distance cannot be read/);
+  assert.ok(content(await picture(page.locator(".scene"), "damage-plain-wall")).share > 0.03, "the wall is there");
+  await page.goto(`${server.address}#/model/torus`);
+  await page.locator(".strip-problems .problem").waitFor();
+  assert.match(await page.locator(".strip-problems").innerText(), /torus\.hdf.*\/centerlines\/radius_error cannot be read/);
+  assert.equal(await page.locator(".profile canvas").count(), 1, "the radius is there without its error");
+  await page.locator(".info [data-ready]").waitFor({ state: "attached" });
+  await page.goto(`${server.address}#/compare/torus/tree?wallBy=geodesic_distance&opacity=1`);
+  await page.locator(".pane-scene .scene[data-ready]").nth(1).waitFor();
+  assert.deepEqual((await page.locator(".pane > .problem").allInnerTexts()).map((text) => /geodesic_distance cannot be read/.test(text)), [false, true]);
+  assert.deepEqual(ofThePage(problems), []);
   await page.close();
 });
 

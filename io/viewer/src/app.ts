@@ -5,7 +5,7 @@ import type { Cohort, Opened } from "./archive/protocol";
 import { CohortView } from "./cohort/view";
 import { CompareView } from "./compare/view";
 import { ModelView } from "./model/view";
-import { fill, h } from "./ui/dom";
+import { fill, h, sentenceOf } from "./ui/dom";
 import { showHelp } from "./ui/help";
 import { StartView } from "./ui/start";
 import { columnOf } from "./cohort/rows";
@@ -105,7 +105,7 @@ export class App {
   }
 
   fail(error: unknown): void {
-    const sentence = error instanceof Error ? error.message : String(error);
+    const sentence = sentenceOf(error);
     this.show({
       root: h("main", { class: "message error", role: "alert" }, h("h1", {}, "This cannot be shown"), h("p", {}, sentence),
         h("p", {}, this.cohort ? h("a", { href: "#/" }, "Back to the cohort") : h("button", { type: "button", on: { click: () => this.start() } }, "Open an archive"))),

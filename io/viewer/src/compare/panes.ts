@@ -6,7 +6,7 @@ import { colourBar, type Bar } from "../model/bars";
 import type { Look } from "../model/material";
 import { ModelScene } from "../model/scene";
 import type { MapName } from "../ui/colours";
-import { fill, h } from "../ui/dom";
+import { fill, h, sentenceOf } from "../ui/dom";
 import { extent, quantile, sortedFinite } from "../ui/scale";
 
 export interface CompareLook {
@@ -34,6 +34,8 @@ export class Panes {
   readonly roots = [h("div", { class: "pane-scene" }), h("div", { class: "pane-scene" })] as const;
   readonly bars = h("div", { class: "bars" });
   onMoved: () => void = () => {};
+  /** Told what cannot be read of a pane's model, which is plain then. */
+  onProblem: (side: number, sentence: string) => void = () => {};
   private readonly panes: (Pane | null)[] = [null, null];
   private following = false;
   private turn = 0;
@@ -114,11 +116,15 @@ export class Panes {
   private async coloured(
     what: string, look: CompareLook, fields: (model: Model) => Bar["field"][] | undefined, key: string,
   ): Promise<(Coloured | null)[]> {
-    const found = await Promise.all(this.panes.map(async (pane) => {
+    const found = await Promise.all(this.panes.map(async (pane, side) => {
       const field = pane && fields(pane.model)?.find((candidate) => candidate.key === key);
       if (!field) return null;
-      const values = await this.client.call("field", { id: pane.model.id, path: field.path, row: field.row });
-      return { field, values };
+      try {
+        return { field, values: await this.client.call("field", { id: pane.model.id, path: field.path, row: field.row }) };
+      } catch (error) {
+        this.onProblem(side, sentenceOf(error));
+        return null;
+      }
     }));
     const all = sortedFinite(Float32Array.from(found.flatMap((side) => (side ? Array.from(side.values) : []))));
     const whole = extent(all);

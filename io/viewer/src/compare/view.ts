@@ -6,7 +6,7 @@ import { columnOf, groupings, groupsOf } from "../cohort/rows";
 import { measureTitle } from "../cohort/points";
 import { unitText, labelOf } from "../archive/words";
 import { kMapNames, type MapName } from "../ui/colours";
-import { checkbox, choice, fill, h, slider } from "../ui/dom";
+import { checkbox, choice, fill, h, sentenceOf, slider } from "../ui/dom";
 import { BandPlot, type BandCurve } from "./band";
 import { branchCurves, branchLabels, sectionColumns } from "./branches";
 import { Panes, type CompareLook } from "./panes";
@@ -63,6 +63,7 @@ export class CompareView implements View {
     this.by = state.get("by") ?? ["group", ...groups].find((name) => groups.includes(name)) ?? "";
     this.looking = state.get("cam") ?? "";
     this.panes.onMoved = () => this.remember();
+    this.panes.onProblem = (side, sentence) => fill(this.problems[side as 0 | 1], sentence);
     fill(this.root, this.toolbar,
       h("div", { class: "panes" }, this.pane(0), this.pane(1), this.panes.bars),
       h("div", { class: "strip-plot band" }, this.band, this.plot.drawn.root));
@@ -107,7 +108,7 @@ export class CompareView implements View {
         this.models[side] = model;
         this.panes.put(side, model);
       } catch (error) {
-        fill(this.problems[side], error instanceof Error ? error.message : String(error));
+        fill(this.problems[side], sentenceOf(error));
       }
     }));
     if (this.gone) return;
@@ -125,7 +126,8 @@ export class CompareView implements View {
 
   private show(): Promise<void> {
     this.remember();
-    return this.panes.show(this.look).catch((error: unknown) => fill(this.problems[0], String(error)));
+    for (const side of [0, 1] as const) if (this.models[side]) fill(this.problems[side]);
+    return this.panes.show(this.look).catch((error: unknown) => fill(this.problems[0], sentenceOf(error)));
   }
 
   /** Fields that either model has. */
@@ -195,7 +197,7 @@ export class CompareView implements View {
     try {
       this.sections ??= await this.app.client.call("table", "sections");
     } catch (error) {
-      fill(this.said, error instanceof Error ? error.message : String(error));
+      fill(this.said, sentenceOf(error));
       return;
     }
     if (this.profiled !== profiled || this.gone) return;
@@ -226,7 +228,7 @@ export class CompareView implements View {
     try {
       profiled.failed = (await answer).failed.length;
     } catch (error) {
-      fill(this.said, error instanceof Error ? error.message : String(error));
+      fill(this.said, sentenceOf(error));
       return;
     }
     profiled.done = true;

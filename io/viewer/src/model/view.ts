@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import type { App, View } from "../app";
 import type { Field, LinesPart, MarkedTable, Model } from "../archive/protocol";
-import { download, fill, h, number, withUnits } from "../ui/dom";
+import { download, fill, h, number, problems, sentenceOf, withUnits } from "../ui/dom";
 import { extent, quantile, sortedFinite } from "../ui/scale";
 import { unitText } from "../archive/words";
 import { barTitle, colourBar, paintBars, type Bar } from "./bars";
@@ -67,6 +67,7 @@ class Loaded {
   private readonly labels: EndLabels;
   private readonly profile: ProfilePlot;
   private readonly bars = h("div", { class: "bars" });
+  private readonly profileProblems = h("div", { class: "strip-problems" });
   private readonly readout = h("output", { class: "readout" });
   private readonly place = h("input", { type: "range", min: 0, max: 1, step: 0.001, "aria-label": "place along the line" });
   private readonly fields = new Map<string, Promise<Float32Array>>();
@@ -100,7 +101,7 @@ class Loaded {
     this.scene.stage.onMoved = () => this.remember();
     this.scene.stage.onDrawn = () => this.labels.place();
     this.scene.stage.onClick((x, y) => this.clicked(x, y));
-    void Promise.all([this.draw(), this.drawProfile()]).then(() => this.readMarks());
+    void Promise.all([this.draw(), this.drawProfile()]).finally(() => this.readMarks());
     if (this.settings.site >= 0) void this.pick(this.settings.site);
   }
 
@@ -133,6 +134,7 @@ class Loaded {
       h("div", { class: "strip-head" }, this.lineChoice,
         select("quantity", lines.fields.map((field) => [field.key, barTitleOf(field)]), this.settings.profile, (profile) => this.apply({ ...this.settings, profile })),
         this.place, this.readout),
+      this.profileProblems,
       this.profile.root);
   }
   private lineChoice: HTMLSelectElement | null = null;
@@ -202,13 +204,15 @@ class Loaded {
   private async draw(): Promise<void> {
     const turn = ++this.drawing;
     const { settings, model, scene } = this;
+    const said: string[] = []; // what cannot be read is plain, or left away
+    const tried = <T>(read: Promise<T>) => read.catch((error: unknown) => (said.push(sentenceOf(error)), null));
     try {
       const [wall, lines, balls, polygons, voronoi] = await Promise.all([
-        this.shown("Wall", model.surface?.fields, settings.wallBy, settings.wall),
-        this.shown("Lines", model.lines?.fields, settings.linesBy, settings.lines),
-        settings.balls === "all" ? this.shown("Balls", model.lines?.fields, settings.linesBy || "radius", true) : null,
-        this.shown("Voronoi diagram", model.voronoi?.fields, settings.voronoiBy, settings.voronoi),
-        settings.voronoi && model.voronoi ? this.app.client.call("voronoi", model.id) : null,
+        tried(this.shown("Wall", model.surface?.fields, settings.wallBy, settings.wall)),
+        tried(this.shown("Lines", model.lines?.fields, settings.linesBy, settings.lines)),
+        settings.balls === "all" ? tried(this.shown("Balls", model.lines?.fields, settings.linesBy || "radius", true)) : null,
+        tried(this.shown("Voronoi diagram", model.voronoi?.fields, settings.voronoiBy, settings.voronoi)),
+        settings.voronoi && model.voronoi ? tried(this.app.client.call("voronoi", model.id)) : null,
       ]);
       if (turn !== this.drawing) return; // something newer is on its way
       scene.showWall(settings.wall, this.look(wall, settings.opacity), wall?.values ?? null);
@@ -220,11 +224,11 @@ class Loaded {
       for (const marked of this.marks) scene.showMarks(marked, settings.marks.includes(marked.name));
       this.labels.show(settings.ends);
       this.shownBars = [wall, polygons, lines].flatMap((shown) => (shown ? [shown.bar] : []));
-      fill(this.bars, this.shownBars.map(colourBar));
+      fill(this.bars, problems(said), this.shownBars.map(colourBar));
       this.moveTo(settings.at, false);
       this.scene.stage.root.dataset.ready = String(turn);
     } catch (error) {
-      fill(this.bars, h("p", { class: "problem", role: "alert" }, error instanceof Error ? error.message : String(error)));
+      fill(this.bars, problems([sentenceOf(error)]));
     }
   }
 
@@ -236,7 +240,7 @@ class Loaded {
       this.marks = found.tables;
       notes = found.notes;
     } catch (error) {
-      notes = [error instanceof Error ? error.message : String(error)];
+      notes = [sentenceOf(error)];
     }
     this.panel.offerMarks(this.marks);
     this.info.showMarks(this.marks, notes);
@@ -248,9 +252,12 @@ class Loaded {
     const field = lines?.fields.find((candidate) => candidate.key === this.settings.profile);
     if (!lines || !field) return;
     const error = lines.fields.find((candidate) => candidate.key === `${field.key}_error`);
-    const [values, errors] = await Promise.all([this.values(field), error ? this.values(error) : null]);
+    const said: string[] = [];
+    const tried = (read: Promise<Float32Array>) => read.catch((reason: unknown) => (said.push(sentenceOf(reason)), null));
+    const [values, errors] = await Promise.all([tried(this.values(field)), error ? tried(this.values(error)) : null]);
+    fill(this.profileProblems, problems(said));
     const [first, end] = this.span();
-    this.profile.show({
+    this.profile.show(values && {
       x: lines.abscissa.slice(first, end), y: values.slice(first, end), error: errors && errors.slice(first, end),
       xTitle: `Abscissa [${unitText(this.model.unit) || "length"}]`, yTitle: barTitleOf(field),
     });
@@ -324,7 +331,7 @@ class Loaded {
       if (Number.isFinite(site.abscissa)) this.atAbscissa(site.abscissa, true);
     } catch (error) {
       this.settings = { ...this.settings, site: -1 };
-      fill(this.bars, h("p", { class: "problem", role: "alert" }, error instanceof Error ? error.message : String(error)));
+      fill(this.bars, problems([sentenceOf(error)]));
     }
   }
 

@@ -84,3 +84,10 @@ export function download(blob: Blob, name: string): void {
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
+
+/** What a failure says. */
+export const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+/** Sentences of failures, as a view shows them. */
+export const problems = (sentences: string[]): HTMLElement[] =>
+  [...new Set(sentences)].map((sentence) => h("p", { class: "problem", role: "alert" }, sentence));
