@@ -73,6 +73,7 @@ class Loaded {
   private readonly fields = new Map<string, Promise<Float32Array>>();
   private marks: MarkedTable[] = [];
   private drawing = 0;
+  private gone = false;
   private shownBars: Bar[] = [];
   private rememberAt = 0;
 
@@ -106,6 +107,8 @@ class Loaded {
   }
 
   dispose(): void {
+    this.gone = true;
+    ++this.drawing; // what is on its way comes too late
     clearTimeout(this.rememberAt);
     this.profile.dispose();
     this.labels.dispose();
@@ -234,6 +237,7 @@ class Loaded {
 
   /** What can wait until there is something to look at. */
   private async readMarks(): Promise<void> {
+    if (this.gone) return;
     let notes: string[];
     try {
       const found = await this.app.client.call("marks", this.model.id);
@@ -242,6 +246,7 @@ class Loaded {
     } catch (error) {
       notes = [sentenceOf(error)];
     }
+    if (this.gone) return;
     this.panel.offerMarks(this.marks);
     this.info.showMarks(this.marks, notes);
     if (this.settings.marks.length > 0) void this.draw();
