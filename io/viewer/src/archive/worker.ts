@@ -82,8 +82,8 @@ interface Ahead {
 let ahead: Promise<Ahead | null> = Promise.resolve(null);
 
 async function readAhead(server: string): Promise<Ahead | null> {
-  const answer = await fetch(new URL("archive.json", server)).catch(() => null);
-  if (!answer?.ok) return null;
+  const answer = await fetch(new URL("archive.json", server));
+  if (!answer.ok) return null;
   const { root, name } = (await answer.json()) as { root: string; name: string };
   const base = new URL("archive/", server).href;
   const index = servedFiles(base, fetched).open(root);

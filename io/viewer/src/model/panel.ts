@@ -22,17 +22,11 @@ export const markName = (name: string): string => kMarkNames[name] ?? name;
 export class Panel {
   readonly root = h("aside", { class: "panel", "aria-label": "what is shown" });
   private readonly marksPart = h("section", {});
-  private marks: MarkedTable[] = [];
 
   constructor(
     private readonly model: Model, private readonly get: () => Settings, private readonly set: (settings: Settings) => void,
   ) {
     this.draw();
-  }
-
-  offerMarks(marks: MarkedTable[]): void {
-    this.marks = marks;
-    this.drawMarks();
   }
 
   private change(part: Partial<Settings>, redraw = false): void {
@@ -57,7 +51,6 @@ export class Panel {
   draw(): void {
     const { model } = this;
     const settings = this.get();
-    this.drawMarks();
     const presets = kPresets.filter((preset) => preset.available(model)).map((preset) =>
       h("button", {
         type: "button", role: "radio", title: preset.title, "aria-checked": String(this.shows(preset.settings)),
@@ -102,10 +95,10 @@ export class Panel {
     return boxes.length > 0 && h("section", {}, boxes);
   }
 
-  private drawMarks(): void {
-    const settings = this.get();
-    fill(this.marksPart, this.marks.filter((marked) => marked.points || marked.outlines).map((marked) =>
-      checkbox(`${markName(marked.name)} (${marked.table.rows})`, settings.marks.includes(marked.name), (on) => {
+  /** A box for each of them that has a place. */
+  offerMarks(marks: MarkedTable[]): void {
+    fill(this.marksPart, marks.filter((marked) => marked.points || marked.outlines).map((marked) =>
+      checkbox(`${markName(marked.name)} (${marked.table.rows})`, this.get().marks.includes(marked.name), (on) => {
         const others = this.get().marks.filter((name) => name !== marked.name);
         this.change({ marks: on ? [...others, marked.name] : others });
       })));

@@ -208,14 +208,13 @@ class Loaded {
     const turn = ++this.drawing;
     const { settings, model, scene } = this;
     const said: string[] = []; // what cannot be read is plain, or left away
-    const tried = <T>(read: Promise<T>) => read.catch((error: unknown) => (said.push(sentenceOf(error)), null));
     try {
       const [wall, lines, balls, polygons, voronoi] = await Promise.all([
-        tried(this.shown("Wall", model.surface?.fields, settings.wallBy, settings.wall)),
-        tried(this.shown("Lines", model.lines?.fields, settings.linesBy, settings.lines)),
-        settings.balls === "all" ? tried(this.shown("Balls", model.lines?.fields, settings.linesBy || "radius", true)) : null,
-        tried(this.shown("Voronoi diagram", model.voronoi?.fields, settings.voronoiBy, settings.voronoi)),
-        settings.voronoi && model.voronoi ? tried(this.app.client.call("voronoi", model.id)) : null,
+        tried(said, this.shown("Wall", model.surface?.fields, settings.wallBy, settings.wall)),
+        tried(said, this.shown("Lines", model.lines?.fields, settings.linesBy, settings.lines)),
+        settings.balls === "all" ? tried(said, this.shown("Balls", model.lines?.fields, settings.linesBy || "radius", true)) : null,
+        tried(said, this.shown("Voronoi diagram", model.voronoi?.fields, settings.voronoiBy, settings.voronoi)),
+        settings.voronoi && model.voronoi ? tried(said, this.app.client.call("voronoi", model.id)) : null,
       ]);
       if (turn !== this.drawing) return; // something newer is on its way
       scene.showWall(settings.wall, this.look(wall, settings.opacity), wall?.values ?? null);
@@ -258,8 +257,7 @@ class Loaded {
     if (!lines || !field) return;
     const error = lines.fields.find((candidate) => candidate.key === `${field.key}_error`);
     const said: string[] = [];
-    const tried = (read: Promise<Float32Array>) => read.catch((reason: unknown) => (said.push(sentenceOf(reason)), null));
-    const [values, errors] = await Promise.all([tried(this.values(field)), error ? tried(this.values(error)) : null]);
+    const [values, errors] = await Promise.all([tried(said, this.values(field)), error ? tried(said, this.values(error)) : null]);
     fill(this.profileProblems, problems(said));
     const [first, end] = this.span();
     this.profile.show(values && {
@@ -376,6 +374,10 @@ class Loaded {
     else if (event.key === "l" && lines) this.apply({ ...this.settings, line: (this.settings.line + 1) % (lines.offsets.length - 1) });
   }
 }
+
+/** What is read, or null after a failure, whose sentence goes to `said`. */
+const tried = <T>(said: string[], read: Promise<T>): Promise<T | null> =>
+  read.catch((error: unknown) => (said.push(sentenceOf(error)), null));
 
 const barTitleOf = (field: Field): string =>
   barTitle({ what: "", field, map: "viridis", range: [0, 1], categories: [], cut: false });
