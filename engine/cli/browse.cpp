@@ -1,9 +1,6 @@
-// Everything printed comes from a file that may be anybody's: text goes through `printable`.
-
 #include "engine/cli/browse.h"
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -15,10 +12,8 @@
 #include "engine/cli/show.h"
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
-#include "engine/population/study.h"
 #include "io/archive/commit.h"
 #include "io/archive/read.h"
-#include "io/archive/utf8.h"
 
 namespace lumenline {
 
@@ -70,20 +65,8 @@ void browse(const Request& request, std::ostream& out) {
 }
 
 int run(const Request& request) {
-    const auto say = [](const std::exception& error) { std::cerr << "lumenline: " << printable(error.what()) << '\n'; };
-    try {
-        to_standard_output([&](std::ostream& out) { browse(request, out); });
-        return kDone;
-    } catch (const UnknownName& error) {
-        say(error);
-        return kUsage;
-    } catch (const StudyError& error) {
-        say(error);
-        return kUsage;
-    } catch (const std::exception& error) {
-        say(error);
-        return kModelFailed;
-    }
+    to_standard_output([&](std::ostream& out) { browse(request, out); });
+    return kDone;
 }
 
 }  // namespace

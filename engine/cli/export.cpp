@@ -38,19 +38,14 @@ std::size_t export_models(const Request& request) {
 }
 
 int run(const Request& request) {
-    try {
-        std::filesystem::create_directories(request.directory);
-        const std::size_t files =
-            request.format == "vtp" ? export_models(request)
-                                    : export_tables(request.archive, request.directory,
-                                                    request.format == "csv" ? TableFormat::kCsv : TableFormat::kTsv)
-                                          .size();
-        fmt::print("{} written to {}\n", counted(files, "file"), request.directory);
-        return kDone;
-    } catch (const UnknownName& error) {
-        fmt::print(stderr, "lumenline: {}\n", printable(error.what()));
-        return kUsage;
-    }
+    std::filesystem::create_directories(request.directory);
+    const std::size_t files = request.format == "vtp"
+                                  ? export_models(request)
+                                  : export_tables(request.archive, request.directory,
+                                                  request.format == "csv" ? TableFormat::kCsv : TableFormat::kTsv)
+                                        .size();
+    fmt::print("{} written to {}\n", counted(files, "file"), request.directory);
+    return kDone;
 }
 
 }  // namespace

@@ -1,23 +1,22 @@
-// The command line: every verb sets the action to run; what it throws becomes one sentence.
+// The command line: every verb sets the action to run.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "config/cohort.h"
 #include "engine/cli/browse.h"
-#include "engine/cli/isolated.h"
 #include "engine/cli/export.h"
+#include "engine/cli/isolated.h"
 #include "engine/cli/pack.h"
 #include "engine/cli/phantom.h"
 #include "engine/cli/report.h"
 #include "engine/cli/run.h"
 #include "engine/cli/stats.h"
 #include "engine/cli/status.h"
+#include "engine/cli/status_of.h"
 #include "engine/cli/submit.h"
 #include "engine/cli/validate_archive.h"
 #include "engine/core/version.h"
-#include "io/archive/lease.h"
 
 int main(int argc, char** argv) {
     using namespace lumenline;
@@ -45,7 +44,7 @@ int main(int argc, char** argv) {
     add_worker(app, action);
     try {
         app.parse(argc, argv);
-        return action();
+        return status_of(action);
     } catch (const CLI::RequiredError& error) {
         if (argc > 1 && app.get_subcommands().empty())
             fmt::print(stderr, "lumenline: unknown verb or option '{}'; lumenline --help lists them\n", argv[1]);
@@ -54,14 +53,5 @@ int main(int argc, char** argv) {
         return kUsage;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;
-    } catch (const ConfigError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return kUsage;
-    } catch (const LeaseHeld& held) {
-        fmt::print(stderr, "{}\n", held.what());
-        return kUsage;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "lumenline: {}\n", error.what());
-        return kModelFailed;
     }
 }

@@ -3,31 +3,24 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include "engine/cli/run.h"
 #include "engine/core/text.h"
 #include "io/archive/pack.h"
-#include "io/archive/utf8.h"
 
 namespace lumenline {
 
 namespace {
 
 int run(const std::string& archive, const std::string& file) {
-    try {
-        const Packed packed = pack_archive(archive, file, nullptr);
-        fmt::print("{} packed into {}\n", counted(packed.models, "model"), file);
-        if (packed.missing == 0) return kDone;
-        fmt::print(stderr, "lumenline: {} of the index had no file and {} left out: run the cohort again\n",
-                   counted(packed.missing, "model"), packed.missing == 1 ? "is" : "are");
-        return kModelFailed;
-    } catch (const UnknownName& error) {
-        fmt::print(stderr, "lumenline: {}\n", printable(error.what()));
-        return kUsage;
-    }
+    const Packed packed = pack_archive(archive, file, nullptr);
+    fmt::print("{} packed into {}\n", counted(packed.models, "model"), file);
+    if (packed.missing == 0) return kDone;
+    fmt::print(stderr, "lumenline: {} of the index had no file and {} left out: run the cohort again\n",
+               counted(packed.missing, "model"), packed.missing == 1 ? "is" : "are");
+    return kModelFailed;
 }
 
 }  // namespace

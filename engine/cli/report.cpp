@@ -15,9 +15,7 @@
 #include "engine/cli/report_data.h"
 #include "engine/cli/run.h"
 #include "engine/core/text.h"
-#include "engine/population/study.h"
 #include "io/archive/commit.h"
-#include "io/archive/errors.h"
 #include "io/archive/utf8.h"
 
 namespace lumenline {
@@ -37,27 +35,17 @@ void say_progress(std::size_t done, std::size_t all) {
 }
 
 int run(const Request& request) {
-    const auto refuse = [](const std::exception& error) {
-        fmt::print(stderr, "lumenline: {}\n", printable(error.what()));
-        return kUsage;
-    };
     if (!request.ratings_template.empty() && std::filesystem::exists(request.ratings_template)) {
         fmt::print(stderr, "lumenline: '{}' is there already, and ratings are not written over: name another file\n",
                    printable(request.ratings_template));
         return kUsage;
     }
-    try {
-        const Report report = gather_report(request.archive, request.options, say_progress);
-        write_file(request.output, [&](std::ostream& out) { write_report(report, out); });
-        if (!request.ratings_template.empty())
-            write_file(request.ratings_template, [&](std::ostream& out) { out << report.ratings; });
-        fmt::print("{} in {}\n", counted(report.models.size(), "model"), request.output);
-        return kDone;
-    } catch (const UnknownName& error) {
-        return refuse(error);
-    } catch (const StudyError& error) {
-        return refuse(error);
-    }
+    const Report report = gather_report(request.archive, request.options, say_progress);
+    write_file(request.output, [&](std::ostream& out) { write_report(report, out); });
+    if (!request.ratings_template.empty())
+        write_file(request.ratings_template, [&](std::ostream& out) { out << report.ratings; });
+    fmt::print("{} in {}\n", counted(report.models.size(), "model"), request.output);
+    return kDone;
 }
 
 }  // namespace

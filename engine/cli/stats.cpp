@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -184,32 +184,20 @@ void print_json(const Study& study, const std::vector<Result>& results, std::ost
 }
 
 int run(const Request& request) {
-    const auto say = [](const std::exception& error) { std::cerr << "lumenline: " << printable(error.what()) << '\n'; };
-    try {
-        DataTable table = read_data_table(request.archive, request.table);
-        if (!request.ratings.empty()) add_ratings(request.ratings, table);
-        const Study study = study_table(table, request.study);
-        const std::vector<Result> results =
-            results_of(study, {!request.study.label.empty(), !request.study.bin_by.empty()});
-        to_standard_output([&](std::ostream& out) {
-            if (request.format == "json")
-                print_json(study, results, out);
-            else if (request.format == "tsv")
-                print_tsv(study, results, out);
-            else
-                print_text(study, results, out);
-        });
-        return kDone;
-    } catch (const UnknownName& error) {
-        say(error);
-        return kUsage;
-    } catch (const StudyError& error) {
-        say(error);
-        return kUsage;
-    } catch (const ArchiveError& error) {
-        say(error);
-        return kModelFailed;
-    }
+    DataTable table = read_data_table(request.archive, request.table);
+    if (!request.ratings.empty()) add_ratings(request.ratings, table);
+    const Study study = study_table(table, request.study);
+    const std::vector<Result> results =
+        results_of(study, {!request.study.label.empty(), !request.study.bin_by.empty()});
+    to_standard_output([&](std::ostream& out) {
+        if (request.format == "json")
+            print_json(study, results, out);
+        else if (request.format == "tsv")
+            print_tsv(study, results, out);
+        else
+            print_text(study, results, out);
+    });
+    return kDone;
 }
 
 }  // namespace
@@ -241,8 +229,9 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--confidence", study.confidence, "of the intervals")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
-    verb->add_option("--ratings", request->ratings,
-                     "TSV or CSV with the columns model and rating, as report writes it: models rated 'bad' are left out");
+    verb->add_option(
+        "--ratings", request->ratings,
+        "TSV or CSV with the columns model and rating, as report writes it: models rated 'bad' are left out");
     verb->add_option("--format", request->format, "text, tsv or json")
         ->check(CLI::IsMember({"text", "tsv", "json"}))
         ->capture_default_str();

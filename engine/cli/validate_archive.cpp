@@ -1,7 +1,5 @@
 #include "engine/cli/validate_archive.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <ostream>
@@ -10,7 +8,6 @@
 #include "engine/cli/run.h"
 #include "engine/cli/standard_output.h"
 #include "engine/core/text.h"
-#include "io/archive/utf8.h"
 #include "io/archive/validate.h"
 
 namespace lumenline {
@@ -18,21 +15,16 @@ namespace lumenline {
 namespace {
 
 int run(const std::string& archive) {
-    try {
-        const Validation result = validate_archive(archive);
-        to_standard_output([&](std::ostream& out) {
-            for (const Finding& finding : result.findings) out << finding.sentence() << '\n';
-            out << counted(result.files, "file") << ", " << counted(result.datasets, "dataset") << ": "
-                << (result.findings.empty() ? "all as specified" : counted(result.findings.size(), "finding"));
-            if (result.others > 0)
-                out << "; " << counted(result.others, "dataset") << " of others that the format does not name";
-            out << '\n';
-        });
-        return result.findings.empty() ? kDone : kModelFailed;
-    } catch (const UnknownName& error) {
-        fmt::print(stderr, "lumenline: {}\n", printable(error.what()));
-        return kUsage;
-    }
+    const Validation result = validate_archive(archive);
+    to_standard_output([&](std::ostream& out) {
+        for (const Finding& finding : result.findings) out << finding.sentence() << '\n';
+        out << counted(result.files, "file") << ", " << counted(result.datasets, "dataset") << ": "
+            << (result.findings.empty() ? "all as specified" : counted(result.findings.size(), "finding"));
+        if (result.others > 0)
+            out << "; " << counted(result.others, "dataset") << " of others that the format does not name";
+        out << '\n';
+    });
+    return result.findings.empty() ? kDone : kModelFailed;
 }
 
 }  // namespace

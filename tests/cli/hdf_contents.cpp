@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -133,6 +134,24 @@ std::map<std::string, std::string> hdf_contents(const std::filesystem::path& pat
     if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, add_link, &visit) < 0)
         throw std::runtime_error(path.string() + ": " + visit.error);
     return std::move(visit.found);
+}
+
+std::vector<std::filesystem::path> hdf_files(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code none_yet;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none_yet))
+        if (const auto extension = entry.path().extension(); extension == ".hdf" || extension == ".h5")
+            files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::map<std::string, std::string> archive_contents(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> all;
+    for (const auto& file : hdf_files(folder))
+        for (auto& [name, value] : hdf_contents(file))
+            all[std::filesystem::relative(file, folder).string() + name] = std::move(value);
+    return all;
 }
 
 std::vector<std::string> differences(const std::map<std::string, std::string>& a,

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <functional>
 
-#include "config/cohort.h"
 #include "engine/cli/browse.h"
 #include "engine/cli/export.h"
 #include "engine/cli/pack.h"
 #include "engine/cli/report.h"
 #include "engine/cli/stats.h"
+#include "engine/cli/status_of.h"
 #include "engine/cli/validate_archive.h"
 
 namespace lumenline::damage {
@@ -27,18 +27,9 @@ Outcome run_command(const std::vector<std::string>& words) {
     Outcome outcome;
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
-    std::string thrown;
-    try {
-        outcome.status = action();
-    } catch (const ConfigError& error) {
-        outcome.status = 2;
-        thrown = std::string(error.what()) + "\n";
-    } catch (const std::exception& error) {
-        outcome.status = 1;
-        thrown = std::string(error.what()) + "\n";
-    }
+    outcome.status = status_of(action);
     outcome.out = ::testing::internal::GetCapturedStdout();
-    outcome.err = ::testing::internal::GetCapturedStderr() + thrown;
+    outcome.err = ::testing::internal::GetCapturedStderr();
     return outcome;
 }
 

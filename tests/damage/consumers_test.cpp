@@ -17,6 +17,8 @@ namespace lumenline::damage {
 namespace {
 
 namespace fs = std::filesystem;
+using cli_test::read_text;
+using cli_test::write_text;
 
 /// Another one at each turn, and also at each fourth.
 Harm harm_in_turn(std::size_t turn) { return kHarms[(turn + turn / 4) % std::size(kHarms)]; }
@@ -48,12 +50,12 @@ std::string read_index(const fs::path& archive, bool write_too) {
 
 TEST(Damage, EveryDatasetOfAModelWhateverReadsIt) {
     const fs::path archive = sample_cohort(), file = whole_model(archive);
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     std::size_t turn = 0;
     for (const Specified& entry : model_specification()) {
         const bool is_table = entry.path.find('/', 1) != entry.path.npos && entry.part == Part::kBranches;
         const bool write_too = turn % (is_table ? 16 : 4) == 0;
-        write_bytes(file, bytes);
+        write_text(file, bytes);
         const Harm harm = harm_in_turn(turn);
         if ((!is_table || turn % 4 == 0) && harm_dataset(file, entry.path, harm)) {
             EXPECT_EQ(read_model(archive, entry.path, write_too), "") << entry.path << " " << name_of(harm);
@@ -64,14 +66,14 @@ TEST(Damage, EveryDatasetOfAModelWhateverReadsIt) {
 
 TEST(Damage, EveryDatasetOfAnIndexWhateverReadsIt) {
     const fs::path archive = sample_cohort(), file = archive / "cohort.h5";
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     std::size_t turn = 0;
     for (const Specified& entry : index_specification()) {
         const Harm harm = harm_in_turn(turn++);
         if (entry.path == names::kAnyCovariate) continue;
         const bool of_models = entry.path.starts_with("/tables/models/");
         if (!of_models && turn % 4 != 0) continue;  // the columns of the other tables are read alike
-        write_bytes(file, bytes);
+        write_text(file, bytes);
         if (harm_dataset(file, entry.path, harm)) {
             EXPECT_EQ(read_index(archive, turn % 3 == 0), "") << entry.path << " " << name_of(harm);
         }
@@ -103,24 +105,24 @@ void expect_survives(const std::function<std::string()>& body) {
 TEST(Damage, FilesThatEndEarlyAreRefused) {
     const fs::path archive = sample_cohort();
     for (const fs::path& file : {whole_model(archive), archive / "cohort.h5"}) {
-        const std::string bytes = bytes_of(file);
+        const std::string bytes = read_text(file);
         expect_survives([&] {
             std::string complaints;
             for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 4 + bytes.size() / 20) {
-                write_bytes(file, bytes.substr(0, length));
+                write_text(file, bytes.substr(0, length));
                 complaints += complaint({"browse", archive.string(), "show", kWhole}) + read_index(archive, false) +
                               complaint({"validate-archive", archive.string()});
             }
             return complaints;
         });
-        write_bytes(file, bytes);
+        write_text(file, bytes);
     }
 }
 
 TEST(Damage, OverwrittenBytesNeverCrash) {
     const fs::path archive = sample_cohort();
     for (const fs::path& file : {whole_model(archive), archive / "cohort.h5"}) {
-        const std::string bytes = bytes_of(file);
+        const std::string bytes = read_text(file);
         expect_survives([&] {
             std::string complaints;
             std::mt19937 random(7);
@@ -131,7 +133,7 @@ TEST(Damage, OverwrittenBytesNeverCrash) {
                 const std::size_t start = random() % (reach - 16);
                 for (std::size_t k = start; k < start + (round % 3 == 0 ? 16U : 1U); ++k)
                     damaged[k] = static_cast<char>(damaged[k] ^ static_cast<char>(1 + random() % 255));
-                write_bytes(file, damaged);
+                write_text(file, damaged);
                 complaints += complaint({"validate-archive", archive.string()}) +
                               complaint({"browse", archive.string(), "show", kWhole}) +
                               complaint({"browse", archive.string(), "list", "--csv"}) +
@@ -140,7 +142,7 @@ TEST(Damage, OverwrittenBytesNeverCrash) {
             }
             return complaints;
         });
-        write_bytes(file, bytes);
+        write_text(file, bytes);
     }
 }
 

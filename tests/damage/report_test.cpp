@@ -20,6 +20,8 @@ namespace lumenline::damage {
 namespace {
 
 namespace fs = std::filesystem;
+using cli_test::read_text;
+using cli_test::write_text;
 
 std::string page_of(const fs::path& archive, std::vector<std::string> more = {}) {
     const fs::path file = archive.parent_path() / "report.html";
@@ -27,7 +29,7 @@ std::string page_of(const fs::path& archive, std::vector<std::string> more = {})
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run_command(words);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return bytes_of(file);
+    return read_text(file);
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
@@ -65,8 +67,8 @@ TEST(Report, NeedsNothingElseAndIsTheSameEachTime) {
 TEST(Report, RatingsComeBackAndLeaveOutWhatIsBad) {
     const fs::path archive = sample_cohort(), ratings = archive.parent_path() / "ratings.tsv";
     page_of(archive, {"--template", ratings.string()});
-    EXPECT_EQ(bytes_of(ratings), "model\trating\tnote\nforked\t\t\nbroken\t\t\n");
-    write_bytes(ratings, "model\trating\tnote\nforked\tbad\tleaks <here>\nbroken\t\t\n");
+    EXPECT_EQ(read_text(ratings), "model\trating\tnote\nforked\t\t\nbroken\t\t\n");
+    write_text(ratings, "model\trating\tnote\nforked\tbad\tleaks <here>\nbroken\t\t\n");
     const std::string page = page_of(archive, {"--ratings", ratings.string()});
     EXPECT_TRUE(has(page, "0 of 2 models count; left out: 1 rated bad, 1 failed.")) << page.substr(0, 6000);
     EXPECT_TRUE(has(page, "rated bad: leaks &lt;here&gt;"));
@@ -77,10 +79,10 @@ TEST(Report, RatingsComeBackAndLeaveOutWhatIsBad) {
     const Outcome again =
         run_command({"report", archive.string(), "-o", (archive / "r.html").string(), "--template", ratings.string()});
     EXPECT_EQ(again.status, 2) << "ratings are not written over";
-    EXPECT_TRUE(has(bytes_of(ratings), "leaks"));
-    write_bytes(ratings, "id\trating\nforked\tgood\n");
+    EXPECT_TRUE(has(read_text(ratings), "leaks"));
+    write_text(ratings, "id\trating\nforked\tgood\n");
     EXPECT_TRUE(has(page_of(archive, {"--ratings", ratings.string()}), "rated good")) << "'id' names models as well";
-    write_bytes(ratings, "model\tnote\n");
+    write_text(ratings, "model\tnote\n");
     EXPECT_EQ(
         run_command({"report", archive.string(), "-o", (archive / "r.html").string(), "--ratings", ratings.string()})
             .status,
@@ -90,7 +92,7 @@ TEST(Report, RatingsComeBackAndLeaveOutWhatIsBad) {
 TEST(Report, TextOfTheArchiveStaysText) {
     const fs::path archive = sample_cohort();
     for (const fs::path& file : {archive / "cohort.h5", whole_model(archive)}) {
-        std::string bytes = bytes_of(file);
+        std::string bytes = read_text(file);
         // Of the same length, so that nothing but the text changes: the failure's sentence and the options.
         const auto replace = [&](const std::string& from, const std::string& to) {
             ASSERT_EQ(from.size(), to.size());
@@ -98,7 +100,7 @@ TEST(Report, TextOfTheArchiveStaysText) {
         };
         replace("broken.ply", "<img src=>");
         replace("condition.speck_share", "<script>alert(1)//xxx");
-        write_bytes(file, bytes);
+        write_text(file, bytes);
     }
     const std::string page = page_of(archive);
     EXPECT_FALSE(has(page, "<img src=>"));

@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "io/archive/handle.h"
 #include "tests/cli/process.h"
 
@@ -157,17 +154,6 @@ void set_attribute(const std::filesystem::path& file, const std::string& object,
                                              hdf::extent(0, nullptr).get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose, name);
     hdf::checked(H5Awrite(attribute.get(), type.get(), text.c_str()), name);
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    return bytes.str();
-}
-
-void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
-    std::ofstream(file, std::ios::binary) << bytes;
 }
 
 }  // namespace lumenline::damage

@@ -40,7 +40,4 @@ void copy_dataset(const std::filesystem::path& file, const std::string& from, co
 void set_attribute(const std::filesystem::path& file, const std::string& object, const std::string& name,
                    const std::string& text);
 
-std::string bytes_of(const std::filesystem::path& file);
-void write_bytes(const std::filesystem::path& file, const std::string& bytes);
-
 }  // namespace lumenline::damage

@@ -17,6 +17,8 @@ namespace lumenline::damage {
 namespace {
 
 namespace fs = std::filesystem;
+using cli_test::read_text;
+using cli_test::write_text;
 using Numbers = std::vector<double>;
 
 std::string sentences(const fs::path& archive) {
@@ -43,11 +45,11 @@ TEST(ValidateArchive, WhatTheProgramWritesIsAsSpecified) {
 /// expects a finding of each.
 void expect_each_named(const fs::path& file, const std::vector<Specified>& specification) {
     constexpr std::size_t kAtATime = 8;
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     const std::size_t batches = (specification.size() + kAtATime - 1) / kAtATime;
     for (std::size_t batch = 0; batch < batches; ++batch)
         for (const Harm harm : kHarms) {
-            write_bytes(file, bytes);
+            write_text(file, bytes);
             std::vector<std::string> harmed;
             for (std::size_t k = batch; k < specification.size(); k += batches)
                 if (const std::string& path = specification[k].path;
@@ -76,11 +78,11 @@ TEST(ValidateArchive, EveryDatasetOfAnIndexThatIsDamagedIsNamed) {
 
 TEST(ValidateArchive, DamageIsSaidWhereItIsAndNotAgain) {
     const fs::path file = whole_model(sample_cohort());
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     for (std::size_t k = 0; k < model_specification().size(); k += 17)
         for (const Harm harm : {Harm::kRemoved, Harm::kRetyped, Harm::kGarbled}) {
             if (model_specification()[k].path == "/voronoi/polygon_vertices") continue;  // nothing else has its length
-            write_bytes(file, bytes);
+            write_text(file, bytes);
             if (!harm_dataset(file, model_specification()[k].path, harm)) continue;
             EXPECT_EQ(validate_archive(file).findings.size(), 1U)
                 << name_of(harm) << " " << model_specification()[k].path << "\n"
@@ -179,9 +181,9 @@ TEST(ValidateArchive, EveryCheckIsSeenToFail) {
         {"/VTKHDF/Types", [](Numbers& v) { v[0] = 4; }, "is not that of triangles"},
     };
     const fs::path file = whole_model(sample_cohort());
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     for (const Change& change : changes) {
-        write_bytes(file, bytes);
+        write_text(file, bytes);
         change_numbers(file, change.path, change.change);
         const std::string found = sentences(file), place = change.place != nullptr ? change.place : change.path;
         const std::size_t at = found.find(": " + place + ": ");
@@ -194,7 +196,7 @@ TEST(ValidateArchive, EveryCheckIsSeenToFail) {
 
 TEST(ValidateArchive, WrongAttributesAreNamed) {
     const fs::path file = whole_model(sample_cohort());
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = read_text(file);
     for (const auto& [object, name, text, said] :
          {std::tuple("/", "status", "fine", "is none of ok, warning, failed"), std::tuple("/", "id", "", "\n"),
           std::tuple("/", "coordinate_system", "XYZ", "is none of LPS"),
@@ -204,7 +206,7 @@ TEST(ValidateArchive, WrongAttributesAreNamed) {
           std::tuple("/surface", "diagonal", "0", "is no positive number"),
           std::tuple("/surface/points", "units", "m", "the unit is 'm', not 'mm'"),
           std::tuple("/surface/points", "description", "", "is missing or empty")}) {
-        write_bytes(file, bytes);
+        write_text(file, bytes);
         set_attribute(file, object, name, text);
         const std::string found = sentences(file);
         if (std::string(name) == "id") continue;  // a file alone has no other name to hold it against
@@ -215,12 +217,12 @@ TEST(ValidateArchive, WrongAttributesAreNamed) {
 TEST(ValidateArchive, IndexIsHeldAgainstItsModels) {
     const fs::path archive = sample_cohort();
     const fs::path index = archive / "cohort.h5", model = whole_model(archive);
-    const std::string bytes = bytes_of(index), model_bytes = bytes_of(model);
+    const std::string bytes = read_text(index), model_bytes = read_text(model);
     const auto expect = [&](const std::string& said) {
         const std::string found = sentences(archive);
         EXPECT_NE(found.find(said), found.npos) << said << "\n" << found;
-        write_bytes(index, bytes);
-        write_bytes(model, model_bytes);
+        write_text(index, bytes);
+        write_text(model, model_bytes);
     };
     change_numbers(index, "/tables/models/sites", [](Numbers& v) { v[0] += 1; });
     expect("of the model 'forked' is not that of its file");
@@ -230,14 +232,14 @@ TEST(ValidateArchive, IndexIsHeldAgainstItsModels) {
     expect("/tables/models/inputs_sha256: of the model 'forked'");
     set_attribute(model, "/", "id", "other");
     expect("is 'other', but the model is called 'forked'");
-    write_bytes(index, bytes);
+    write_text(index, bytes);
     std::string renamed = bytes;
     for (std::size_t at = 0; (at = renamed.find("broken", at)) != renamed.npos; ++at) renamed.replace(at, 6, "forked");
-    write_bytes(index, renamed);
+    write_text(index, renamed);
     expect("'forked' is there twice");
     fs::remove(model);
     expect("does not exist");
-    write_bytes(model, model_bytes.substr(0, model_bytes.size() / 2));
+    write_text(model, model_bytes.substr(0, model_bytes.size() / 2));
     expect("no complete HDF5 file");
 }
 
