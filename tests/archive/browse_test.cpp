@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "engine/cli/sparkline.h"
+#include "engine/cli/status_of.h"
 #include "engine/cli/table.h"
 #include "engine/core/branch_tables.h"
 #include "io/archive/index.h"
@@ -38,7 +39,7 @@ Printed run(std::vector<std::string> arguments) {
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     Printed printed;
-    printed.status = action();
+    printed.status = status_of(action);
     printed.out = ::testing::internal::GetCapturedStdout();
     printed.err = ::testing::internal::GetCapturedStderr();
     return printed;
@@ -274,7 +275,7 @@ int status_with_output(int descriptor, const std::vector<std::string>& arguments
     std::fflush(stdout);
     const int saved = ::dup(STDOUT_FILENO);
     ::dup2(descriptor, STDOUT_FILENO);
-    const int status = action();
+    const int status = status_of(action);
     ::dup2(saved, STDOUT_FILENO);
     ::close(saved);
     return status;
