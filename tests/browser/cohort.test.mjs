@@ -132,6 +132,50 @@ test("the keyboard walks through the table and opens a model", async () => {
   await page.keyboard.press("Escape");
 });
 
+test("the keyboard stays with what it was with", async () => {
+  const heading = page.locator("thead button", { hasText: "radius min" });
+  await heading.focus();
+  await page.keyboard.press("Enter");
+  assert.match(await page.evaluate(() => document.activeElement.textContent), /radius min/);
+  await page.keyboard.press("?");
+  await page.keyboard.press("?");
+  assert.equal(await page.locator("dialog").count(), 1);
+  await page.goto(`${server.address}#/model/torus`);
+  await page.keyboard.press("Escape");
+  await page.waitForSelector(".scene[data-ready]");
+  const preset = page.getByRole("radio", { name: "Surface" });
+  await preset.focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Surface");
+  await page.keyboard.press("?");
+  await page.keyboard.press("g");
+  assert.match(page.url(), /model\/torus/, "the page behind a dialog hears no keys");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("g");
+  await page.waitForSelector("table.models");
+});
+
+test("a model that the filter hides is not opened", async () => {
+  await page.locator(".table-scroll").focus();
+  await page.keyboard.press("Home");
+  const search = page.getByRole("searchbox");
+  const chosen = await page.locator("tr.chosen td.id").innerText();
+  await search.fill(chosen === "torus" ? "helix" : "torus");
+  await page.waitForFunction(() => !document.querySelector("tr.chosen"));
+  await page.locator(".table-scroll").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(300);
+  assert.equal(await page.locator("table.models").count(), 1);
+  await search.fill("");
+});
+
+test("another archive need not be opened after all", async () => {
+  await page.getByRole("button", { name: "Open…" }).click();
+  await page.waitForSelector(".start");
+  await page.getByRole("link", { name: "Cohort" }).click();
+  await page.waitForSelector("table.models tbody tr");
+});
+
 test("light and dark differ, and both are readable in contrast", async () => {
   const light = await picture(page, "cohort-light");
   await page.emulateMedia({ colorScheme: "dark" });

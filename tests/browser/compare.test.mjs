@@ -49,6 +49,18 @@ test("walls are coloured over one range", async () => {
   assert.ok(difference(before, await picture(scene(0), "compare-coloured")) > 0.02);
 });
 
+test("arrow keys move the slider that they are with, and a choice keeps the keyboard", async () => {
+  const opacity = page.getByRole("slider", { name: "Opacity" });
+  await opacity.focus();
+  const before = [await opacity.inputValue(), await picture(scene(0), "compare-keys-before")];
+  await page.keyboard.press("ArrowLeft");
+  assert.notEqual(await opacity.inputValue(), before[0]);
+  await page.getByRole("combobox", { name: "Walls" }).focus();
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await page.evaluate(() => document.activeElement.labels?.[0]?.textContent), "Walls");
+  await page.getByRole("combobox", { name: "Walls" }).selectOption("geodesic_distance");
+});
+
 test("profiles can be shown by abscissa, of another quantity, of another line, together", async () => {
   const plot = page.locator(".band .plot");
   let shown = await picture(plot, "compare-share");

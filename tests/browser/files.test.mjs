@@ -86,6 +86,43 @@ test("a model file can be chosen", async () => {
   await page.close();
 });
 
+test("a model file is that model, by whatever name it is asked for, and whatever was open before", async () => {
+  const { page, problems } = await choose("#open-folder", join(archives, "good"));
+  await page.waitForSelector("table.models tbody tr");
+  await shownModel(page, "stenosis");
+  await page.getByRole("button", { name: "Open…" }).click();
+  await page.locator("#open-file").setInputFiles(join(archives, "good/models/torus.hdf"));
+  await page.waitForFunction(() => document.querySelector(".info h1")?.innerText === "torus");
+  await page.evaluate(() => (location.hash = "#/model/stenosis"));
+  await page.waitForSelector(".error");
+  assert.match(await page.locator(".error").innerText(), /it is the model 'torus', not 'stenosis'/);
+  await page.getByRole("link", { name: "Show the model" }).click();
+  await page.waitForFunction(() => document.querySelector(".info h1")?.innerText === "torus");
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
+test("a page that was damaged, and a browser without workers, are said", async () => {
+  writePage("harmed.html");
+  const html = readFileSync(written("harmed.html"), "utf8");
+  const at = html.indexOf(">", html.indexOf("data-lumenline-file=")) + 400;
+  writeFileSync(written("harmed.html"), `${html.slice(0, at)}*${html.slice(at + 1)}`);
+  const { page } = await openPage(browser);
+  await page.goto(pathToFileURL(written("harmed.html")).href);
+  await page.waitForSelector(".error p");
+  await page.addInitScript(() => {
+    globalThis.Worker = class {
+      constructor() {
+        throw new Error("no workers here");
+      }
+    };
+  });
+  await page.goto(writePage("whole.html"));
+  await page.waitForSelector(".error p");
+  assert.match(await page.locator(".error").innerText(), /no workers here/);
+  await page.close();
+});
+
 /** Copies a group of one HDF5 file into another, as packing an archive does. */
 function copyGroup(from, to) {
   for (const name of from.keys()) {

@@ -208,6 +208,98 @@ test("a model that failed shows its sentence", async () => {
   await page.waitForSelector(".info h1");
   assert.match(await page.locator(".info").innerText(), /broken\.ply/);
   assert.match(await page.locator(".middle").innerText(), /no geometry/);
+  assert.equal(await page.getByRole("button", { name: "Picture" }).count(), 0);
+  await page.keyboard.press("s");
+});
+
+const numberIn = (text, name) => Number(new RegExp(`${name}\\s*=?\\s*(-?[\\d.]+)`).exec(text)[1]);
+
+test("a click on the wall of another line takes line and mark there", async () => {
+  await open("tree");
+  const line = page.getByRole("combobox", { name: "line", exact: true });
+  const wall = await page.locator(".scene canvas").boundingBox();
+  const first = await line.inputValue();
+  for (let share = 0.05; share < 1 && (await line.inputValue()) === first; share += 0.03) {
+    await page.mouse.click(wall.x + wall.width * share, wall.y + wall.height * 0.2);
+    await page.waitForTimeout(150);
+  }
+  assert.notEqual(await line.inputValue(), first, "no click met the wall of the other line");
+  await page.waitForTimeout(700);
+  const abscissa = numberIn(await page.locator(".picked").innerText(), "Abscissa");
+  const mark = numberIn(await page.locator(".readout").innerText(), "s");
+  assert.ok(Math.abs(abscissa - mark) < 1, `${abscissa} and ${mark}`);
+  await page.keyboard.press("Escape");
+});
+
+/** Gives inputs, by their label or role, new values at once, without a breath between them. */
+const atOnce = (...changes) => page.evaluate((all) => {
+  for (const [selector, value, event] of all) {
+    const control = document.querySelector(selector);
+    control.value = value;
+    control.dispatchEvent(new Event(event));
+  }
+}, changes);
+
+test("what is moved or chosen while something is read stays", async () => {
+  await open("tree");
+  const slider = page.getByRole("slider", { name: "place along the line" });
+  const ready = await page.locator(".scene").getAttribute("data-ready");
+  const lines = await page.locator("section", { hasText: "Centerlines" }).locator("select").first().getAttribute("id");
+  await atOnce([`#${lines}`, "curvature", "change"], ["[aria-label='place along the line']", "0.9", "input"]);
+  await page.waitForFunction((before) => document.querySelector(".scene").dataset.ready !== before, ready);
+  assert.equal(Number(await slider.inputValue()), 0.9);
+  await atOnce(["[aria-label=quantity]", "torsion", "change"], ["[aria-label=quantity]", "radius", "change"]);
+  await page.waitForTimeout(500);
+  assert.match(await page.locator(".profile").getAttribute("aria-label"), /^Radius \[mm\] over Abscissa/);
+});
+
+test("the area of the sections is among the quantities of a line", async () => {
+  await open("cylinder");
+  await page.getByRole("combobox", { name: "quantity" }).selectOption("area");
+  await page.waitForFunction(() => /^Area of the section \[mm\^2\]/.test(document.querySelector(".profile").ariaLabel));
+  assert.ok(content(await picture(page.locator(".profile"), "model-area")).share > 0.01);
+});
+
+test("a reader that broke is replaced, and what it read has its place", async () => {
+  const shown = async (name, disturb) => {
+    const { page: other } = await openPage(browser);
+    await other.goto(`${server.address}#/model/helix`);
+    await other.locator(".info [data-ready]").waitFor({ state: "attached" });
+    await disturb(other);
+    const ready = await other.locator(".scene").getAttribute("data-ready");
+    await other.getByRole("radio", { name: "Distance" }).click();
+    await other.waitForFunction((before) => document.querySelector(".scene").dataset.ready !== before, ready);
+    await drawn(other);
+    const seen = await picture(other.locator(".scene"), name);
+    await other.close();
+    return seen;
+  };
+  const broken = async (other) => {
+    const gone = other.workers()[0];
+    await Promise.all([other.waitForEvent("worker"), gone.evaluate(() => void setTimeout(() => { throw new Error("on purpose"); }))]);
+  };
+  assert.ok(difference(await shown("model-reader", async () => {}), await shown("model-reader-replaced", broken)) < 0.01);
+});
+
+test("a click whose answer comes when the model was left does not come back", async () => {
+  await open("stenosis");
+  const box = await page.locator(".scene canvas").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height * 0.3);
+  await page.evaluate(() => (location.hash = "#/"));
+  await page.waitForSelector("table.models");
+  await page.waitForTimeout(700);
+  assert.equal(new URL(page.url()).hash, "#/");
+});
+
+test("the pointer over the plot moves the mark, and leaves it where it was", async () => {
+  await open("stenosis");
+  const slider = page.getByRole("slider", { name: "place along the line" });
+  await slider.fill("0.25");
+  const box = await page.locator(".profile .u-over").boundingBox();
+  await page.mouse.move(box.x + box.width * 0.8, box.y + box.height / 2);
+  await page.waitForFunction(() => Number(document.querySelector("[aria-label='place along the line']").value) > 0.7);
+  await page.mouse.move(box.x + box.width / 2, box.y - 200);
+  await page.waitForFunction(() => Number(document.querySelector("[aria-label='place along the line']").value) === 0.25);
 });
 
 test("nothing went wrong on the way", () => assert.deepEqual(problems, []));

@@ -45,6 +45,7 @@ export class App {
   private readonly title = h("span", { class: "archive-name" });
   private readonly progress = h("span", { class: "progress", role: "status" });
   private address = ""; // of the view that is shown
+  private opens = 0;
 
   constructor(root: Element) {
     const themeButton = h("button", { type: "button", class: "quiet", on: { click: () => (nextTheme(), name()) } });
@@ -63,6 +64,11 @@ export class App {
     addEventListener("hashchange", () => {
       if (location.hash !== this.address) this.route();
     });
+    // A link to the address that stands there already is no change of it, but another view may cover what it shows.
+    root.addEventListener("click", (event) => {
+      const link = (event.target as Element).closest<HTMLAnchorElement>("a[href^='#']");
+      if (link?.hash === location.hash) this.route();
+    });
     window.addEventListener("keydown", (event) => this.key(event));
   }
 
@@ -72,20 +78,27 @@ export class App {
   }
 
   async open(opened: Opened): Promise<void> {
-    this.show({ root: h("main", { class: "message" }, h("p", {}, `Reading ${opened.name} …`)) });
+    const reading: View = { root: h("main", { class: "message" }, h("p", {}, `Reading ${opened.name} …`)) };
+    const turn = ++this.opens;
+    this.show(reading);
     this.cohort = null;
     this.cohortView = null;
+    fill(this.title);
+    fill(this.nav);
     try {
-      this.cohort = await this.client.open(opened);
+      const cohort = await this.client.open(opened);
+      if (turn !== this.opens) return;
+      this.cohort = cohort;
     } catch (error) {
-      this.fail(error);
+      if (turn === this.opens) this.fail(error);
       return;
     }
     fill(this.title, this.cohort.name);
     document.title = `${this.cohort.name} – Lumenline`;
-    if (this.cohort.isModelFile && parseRoute(location.hash).view === "cohort")
-      this.replace(`#/model/${encodeURIComponent(this.ids()[0] ?? "")}`);
-    this.route();
+    // Models of the archive that was open before are none of this one.
+    if (turn > 1 && !parseRoute(location.hash).ids.every((id) => this.ids().includes(id))) this.replace("#/");
+    if (this.view === reading) this.route();
+    else this.navigate("cohort", []);
   }
 
   ids(): string[] {
@@ -108,7 +121,7 @@ export class App {
     const sentence = sentenceOf(error);
     this.show({
       root: h("main", { class: "message error", role: "alert" }, h("h1", {}, "This cannot be shown"), h("p", {}, sentence),
-        h("p", {}, this.cohort ? h("a", { href: "#/" }, "Back to the cohort") : h("button", { type: "button", on: { click: () => this.start() } }, "Open an archive"))),
+        h("p", {}, this.cohort ? h("a", { href: "#/" }, this.cohort.isModelFile ? "Show the model" : "Back to the cohort") : h("button", { type: "button", on: { click: () => this.start() } }, "Open an archive"))),
     });
   }
 
@@ -124,6 +137,8 @@ export class App {
 
   private route(): void {
     if (!this.cohort) return;
+    if (this.cohort.isModelFile && parseRoute(location.hash).view === "cohort")
+      this.replace(`#/model/${encodeURIComponent(this.ids()[0] ?? "")}`);
     this.address = location.hash;
     const { view, ids, state } = parseRoute(location.hash);
     this.navigate(view, ids);
@@ -146,6 +161,9 @@ export class App {
   private key(event: KeyboardEvent): void {
     const typing = event.target instanceof HTMLInputElement && !["checkbox", "range"].includes(event.target.type);
     if (typing || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (document.querySelector("dialog[open]")) return;
+    const moves = /^(Arrow|Page|Home|End)/.test(event.key);
+    if (moves && (event.target as Element).closest("input, .small-table, .table-scroll")) return; // these move themselves
     if (event.key === "?") showHelp();
     else if (event.key === "/" && this.view?.root === this.cohortView?.root) {
       this.cohortView?.focusSearch();

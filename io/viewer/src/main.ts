@@ -3,6 +3,7 @@ import "uplot/dist/uPlot.min.css";
 import "./ui/theme.css";
 import { App } from "./app";
 import { bytesOfBase64 } from "./archive/base64";
+import { fill, h, sentenceOf } from "./ui/dom";
 import { useTheme } from "./ui/theme";
 
 /** Files of an archive that stand in the page as base64, each in a block of data that no browser runs. */
@@ -30,4 +31,8 @@ async function begin(): Promise<void> {
   return served ? app.open(served) : app.start();
 }
 
-void begin();
+begin().catch((error: unknown) => {
+  // Without a worker, say, or from a page that was damaged on its way.
+  fill(document.getElementById("app")!, h("main", { class: "message error", role: "alert" },
+    h("h1", {}, "This cannot be shown"), h("p", {}, sentenceOf(error))));
+});

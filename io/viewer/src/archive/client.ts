@@ -14,6 +14,7 @@ export class Client {
   private readonly waiting = new Map<number, Waiting>();
   private next = 0;
   private opened: Opened | null = null;
+  private opening = -1; // number of the call that opens it
 
   /** Told how many bytes were fetched since the page opened, and whether the worker is at work. */
   onProgress: (bytes: number, busy: boolean) => void = () => {};
@@ -21,6 +22,7 @@ export class Client {
 
   open(opened: Opened): Promise<Requests["open"]["answer"]> {
     this.opened = opened;
+    this.opening = this.next;
     return this.call("open", opened);
   }
 
@@ -66,6 +68,7 @@ export class Client {
     if ("answer" in message) waiting.done(message.answer);
     else {
       waiting.failed(new Error(message.sentence));
+      if (message.fatal && message.number === this.opening) this.opened = null; // it would break the next one too
       if (message.fatal) this.replace(message.sentence);
     }
     this.onProgress(this.bytes, this.waiting.size > 0);
@@ -76,6 +79,6 @@ export class Client {
     for (const waiting of this.waiting.values()) waiting.failed(new Error(sentence));
     this.waiting.clear();
     this.worker = this.start();
-    if (this.opened) void this.call("open", this.opened).catch(() => {});
+    if (this.opened) void this.open(this.opened).catch(() => {});
   }
 }

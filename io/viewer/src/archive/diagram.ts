@@ -70,18 +70,25 @@ export class Diagram {
   }
 
   /**
-   * Points of the way down from a vertex: always to the vertex of a shared polygon to which the distance from the lines
-   * falls most per length, until none is nearer to them. Null where the file has no such distance there.
+   * Points of the way down from a vertex towards `end`: always to the vertex of a shared polygon to which the distance
+   * from the lines falls most per length. Vertices lead on past the end, which lies within a polygon: the way leaves them
+   * where it is shortest with the straight piece that is left. Null where the file has no such distance there.
    */
-  descent(from: number): number[] | null {
+  descent(from: number, end: Point): number[] | null {
     const path = `${this.root}/voronoi/centerline_distance`;
     if (!this.file.has(path) || !(from < this.count)) return null;
     const distance = (this.distance ??= this.file.numbers(path, this.count));
     if (!Number.isFinite(distance[from]!)) return null;
     const { starts, polygons } = this.polygonsAround();
     const way: number[] = [];
+    let walked = 0;
+    let [shortest, points] = [Infinity, 0];
     for (let at = from; at >= 0; ) {
-      way.push(...this.points.subarray(3 * at, 3 * at + 3));
+      const here = this.points.subarray(3 * at, 3 * at + 3);
+      if (way.length > 0) walked += distanceOf(here, way.slice(-3));
+      way.push(...here);
+      const whole = walked + distanceOf(here, end);
+      if (whole <= shortest) [shortest, points] = [whole, way.length];
       let best = 0;
       let next = -1;
       for (let k = starts[at]!; k < starts[at + 1]!; ++k)
@@ -94,11 +101,12 @@ export class Diagram {
         }
       at = next; // the distance falls with each step, so this ends
     }
-    return way;
+    return way.slice(0, points);
   }
 
   private length(a: number, b: number): number {
-    const p = this.points;
-    return Math.hypot(p[3 * a]! - p[3 * b]!, p[3 * a + 1]! - p[3 * b + 1]!, p[3 * a + 2]! - p[3 * b + 2]!);
+    return distanceOf(this.points.subarray(3 * a, 3 * a + 3), this.points.subarray(3 * b, 3 * b + 3));
   }
 }
+
+const distanceOf = (a: ArrayLike<number>, b: ArrayLike<number>): number => Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!, a[2]! - b[2]!);

@@ -1,8 +1,9 @@
 // One model: geometry first, fields when they are asked for. Parts that the file has not are left away; a part that is
 // damaged is left away with a note, so that the rest can still be looked at. Indices are checked against what they
 // point into before anything is drawn with them.
+import { areasAlong, hasAreas, kAreaPath } from "./areas";
 import { Diagram } from "./diagram";
-import { ArchiveError, type Hdf5, type DatasetInfo } from "./hdf5";
+import { ArchiveError, type Hdf5, type DatasetInfo, type Numbers } from "./hdf5";
 import { interpolated } from "./interpolate";
 import { Places } from "./places";
 import { boxOf, centred, type Point } from "./points";
@@ -15,10 +16,13 @@ const kNoField = new Set(["points", "normals", "triangles", "input_vertex", "pol
 /** What the page says first of a surface, line or complex. */
 const kOrder = [
   "geodesic_distance", "euclidean_distance", "normalized_tangency_deviation", "abscissa", "branch_id", "centerline_id",
-  "radius", "clearance", "ball_radius", "curvature", "arrival_time", "centerline_distance",
+  "radius", "area", "clearance", "ball_radius", "curvature", "arrival_time", "centerline_distance",
 ];
 
-const rank = (key: string) => (kOrder.includes(key) ? kOrder.indexOf(key) : kOrder.length);
+function byRank(a: Field, b: Field): number {
+  const rank = ({ path }: Field) => (kOrder.includes(path.split("/").at(-1)!) ? kOrder.indexOf(path.split("/").at(-1)!) : kOrder.length);
+  return rank(a) - rank(b);
+}
 
 function fieldOf(info: DatasetInfo, key: string, row: number, label: string): Field {
   return {
@@ -36,6 +40,7 @@ function fieldOf(info: DatasetInfo, key: string, row: number, label: string): Fi
 /** An open model within a file: the file's root, or a group of a packed archive. */
 export class ModelReader {
   private centre: Point = [0, 0, 0];
+  private placed = false; // whether `centre` is known
   private diagram: Diagram | null = null;
 
   constructor(private readonly file: Hdf5, private readonly root: string, readonly id: string) {}
@@ -72,14 +77,23 @@ export class ModelReader {
       const info = this.file.info(this.at(`${group}/${key}`));
       if (!info || (info.kind !== "float" && info.kind !== "integer")) continue;
       if (info.shape.length === 1 && info.shape[0] === count) found.push(fieldOf(info, key, -1, labelOf(key)));
-      if (info.shape.length === 2 && info.shape[1] === count && info.shape[0]! < count)
+      if (info.shape.length === 2 && info.shape[1] === count && info.shape[0]! < count) {
+        const sources = this.at("/voronoi/sources");
+        const source = info.shape[0]! > 1 && this.file.has(sources) ? this.file.numbers(sources, info.shape[0]) : null;
         for (let row = 0; row < info.shape[0]!; ++row)
-          found.push(fieldOf(info, key, row, info.shape[0] === 1 ? labelOf(key) : `${labelOf(key)} from source ${row}`));
+          found.push(fieldOf(info, key, row, info.shape[0] === 1 ? labelOf(key) : `${labelOf(key)} from endpoint ${source?.[row] ?? row}`));
+      }
     }
-    return found.sort((a, b) => rank(a.path.split("/").at(-1)!) - rank(b.path.split("/").at(-1)!));
+    return found.sort(byRank);
+  }
+
+  /** A worker that takes over from one that broke is asked for parts before the whole. */
+  private place(): void {
+    if (!this.placed) this.read();
   }
 
   read(): Model {
+    this.placed = true;
     const notes: string[] = [];
     const attributes = this.file.attributes(this.root || "/");
     const model: Model = {
@@ -110,6 +124,7 @@ export class ModelReader {
 
   /** Apart from the geometry, which is looked at first. */
   marks(): Marks {
+    this.place();
     const notes: string[] = [];
     const tables = ["branches", "bifurcations", "sections", "stenoses", "dilations", "loops"].flatMap((name) => {
       const marked = this.part(`/${name}`, notes, () => new Places(this.file, this.root, this.centre).read(name));
@@ -163,8 +178,19 @@ export class ModelReader {
       radius: float("/centerlines/radius"),
       source: ids("/centerlines/source"),
       target: ids("/centerlines/target"),
-      fields: this.fields("/centerlines", count),
+      fields: [...this.fields("/centerlines", count), ...this.area()].sort(byRank),
     };
+  }
+
+  private area(): Field[] {
+    const info = hasAreas(this.file, this.root) ? this.file.info(this.at("/sections/area")) : null;
+    return info ? [{ ...fieldOf(info, "area", -1, labelOf("area")), path: this.at(kAreaPath) }] : [];
+  }
+
+  /** A quantity of the lines' points, which need not be a dataset. */
+  private along(path: string, count?: number): Numbers {
+    if (path !== this.at(kAreaPath) || this.file.has(path)) return this.file.numbers(path, count);
+    return areasAlong(this.file, this.root, this.rows("/centerlines/points", 3));
   }
 
   private ends(): Ends {
@@ -208,7 +234,7 @@ export class ModelReader {
   /** Values per point, for the graphics card: what is missing or unreached is NaN. */
   field(path: string, row: number): Float32Array {
     if (path.startsWith("derived:")) return this.derived(path.slice("derived:".length));
-    const values = row < 0 ? this.file.numbers(path) : this.file.row(path, row);
+    const values = row < 0 ? this.along(path) : this.file.row(path, row);
     const categories = this.file.info(path)?.kind === "integer";
     return Float32Array.from(values, (x) => (!Number.isFinite(x) || (categories && x < 0) ? NaN : x));
   }
@@ -226,6 +252,7 @@ export class ModelReader {
   }
 
   private complex(): Diagram {
+    this.place();
     return (this.diagram ??= new Diagram(this.file, this.root, this.centre));
   }
 
@@ -234,6 +261,7 @@ export class ModelReader {
   }
 
   site(index: number): Site {
+    this.place();
     const count = this.rows("/surface/points", 3);
     const point = Array.from(this.file.row(this.at("/surface/points"), index)) as Point;
     const site: Site = {
@@ -262,14 +290,15 @@ export class ModelReader {
     const end = Array.from(this.file.row(this.at("/surface/centerline_point"), site.index));
     if (!end.every(Number.isFinite)) return;
     const last = end.map((x, axis) => x - this.centre[axis]!);
-    const descent = this.part("/voronoi", [], () => this.complex().descent(pole));
+    const descent = this.part("/voronoi", [], () => this.complex().descent(pole, last as Point));
     site.wayIsStraight = descent === null;
     site.way = Float32Array.from([...(descent ?? point), ...last]);
   }
 
   /** One quantity along one line; null if the model has no such line. */
   profile(path: string, line: number): Profile | null {
-    if (!this.file.isGroup(this.at("/centerlines")) || !this.file.has(this.at(path))) return null;
+    const areas = path === kAreaPath && hasAreas(this.file, this.root);
+    if (!this.file.isGroup(this.at("/centerlines")) || !(areas || this.file.has(this.at(path)))) return null;
     const abscissa = this.file.numbers(this.at("/centerlines/abscissa"));
     const offsets = this.file.offsets(this.at("/centerlines/offsets"), abscissa.length);
     const length = (l: number) => abscissa[offsets[l + 1]! - 1]! - abscissa[offsets[l]!]!;
@@ -279,12 +308,12 @@ export class ModelReader {
         if (offsets[l + 1]! > offsets[l]! && (chosen < 0 || length(l) > length(chosen))) chosen = l;
     if (!(chosen >= 0 && chosen + 1 < offsets.length)) return null;
     const [first, end] = [offsets[chosen]!, offsets[chosen + 1]!];
-    const values = this.file.numbers(this.at(path), abscissa.length);
+    const values = this.along(this.at(path), abscissa.length);
     return {
       id: this.id,
       x: Float32Array.from(abscissa.subarray(first, end)),
       y: Float32Array.from(values.subarray(first, end)),
-      units: this.file.info(this.at(path))?.units ?? "",
+      units: this.file.info(this.at(areas ? "/sections/area" : path))?.units ?? "",
     };
   }
 }

@@ -53,7 +53,11 @@ class Archive {
   }
 
   private async openModel(id: string): Promise<{ file: Hdf5 | null; reader: ModelReader }> {
-    if (this.cohort.isModelFile) return { file: null, reader: new ModelReader(this.root, "", id) };
+    if (this.cohort.isModelFile) {
+      const own = this.cohort.models.columns.find((column) => column.name === "id")?.texts?.[0];
+      if (id !== own) throw this.root.unusable(`it is the model '${own}', not '${id}'`);
+      return { file: null, reader: new ModelReader(this.root, "", id) };
+    }
     if (id === "" || id === "." || id === ".." || id.includes("/"))
       throw this.root.unusable(`it names a model '${id}', which is no file name`);
     // In a packed archive the model is a group of the index itself; a link into another file is none here.
@@ -118,18 +122,28 @@ function current(): Archive {
   return archive;
 }
 
+let queue: Promise<unknown> = Promise.resolve();
+
+/** Does `work` when all that was asked for before is done. */
+function next<T>(work: () => Promise<T>): Promise<T> {
+  const done = queue.then(work);
+  queue = done.catch(() => {});
+  return done;
+}
+
+/** Waits anew for each model, so that a cohort of thousands holds up nothing else that is asked for. */
 async function profiles(number: number, request: ProfileRequest): Promise<Requests["profiles"]["answer"]> {
   const failed: string[] = [];
   for (const id of request.ids) {
+    await breath(); // lets other requests and a cancellation in
     if (cancelled.has(number)) break;
     try {
-      const part = (await current().model(id)).profile(request.path, request.line);
+      const part = await next(async () => (await current().model(id)).profile(request.path, request.line));
       tell({ number, part: part ?? { id } });
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError) throw error;
       failed.push(id);
     }
-    await breath();  // lets a cancellation in
   }
   cancelled.delete(number);
   return { failed };
@@ -171,10 +185,10 @@ function begin(packed: PackedLibrary): void {
   if ("server" in packed) ahead = readAhead(packed.server).catch(() => null);
 }
 
-let queue: Promise<void> = Promise.resolve();
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if ("library" in data) begin(data.library);
   else if ("cancel" in data) cancelled.add(data.cancel);
-  else queue = queue.then(() => answer(data));
+  else if (data.verb === "profiles") void next(async () => {}).then(() => answer(data));
+  else void next(() => answer(data));
 };
 

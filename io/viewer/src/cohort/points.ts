@@ -1,7 +1,8 @@
 // One drawing of models as points, for both plots of the cohort: measure by group (with a box per group) and measure by
 // measure. Points can be hovered, clicked, and walked through with the arrow keys from left to right.
 import { DrawnCanvas, type Theme } from "../ui/canvas";
-import { h, number } from "../ui/dom";
+import { unitText } from "../archive/words";
+import { h, withUnits } from "../ui/dom";
 import { extent, padded, quantile, sortedFinite, tickText, ticks } from "../ui/scale";
 import { categoryColour } from "../ui/colours";
 
@@ -263,6 +264,6 @@ function fitted(g: CanvasRenderingContext2D, text: string, width: number): strin
   return `${cut}…`;
 }
 
-export const measureTitle = (label: string, units: string): string => (units && units !== "1" ? `${label} [${units}]` : label);
+export const measureTitle = (label: string, units: string): string => (unitText(units) ? `${label} [${unitText(units)}]` : label);
 export const measureText = (label: string, value: number, units: string): string =>
-  `${label}: ${number(value)}${units && units !== "1" ? ` ${units}` : ""}`;
+  `${label}: ${withUnits(value, units)}`;

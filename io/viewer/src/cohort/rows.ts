@@ -10,13 +10,14 @@ export function measures(table: Table): Column[] {
 }
 
 const kNoGrouping = /^(source_|inputs_|id$)/;
+const kMostGroups = 40;
 
-/** Columns by whose few values the models fall into groups. */
+/** Columns by whose few values the models fall into groups; the one that is meant to may have more of them. */
 export function groupings(table: Table, most = 12): Column[] {
   return table.columns.filter((column) => {
     if (!column.texts || kNoGrouping.test(column.name)) return false;
     const values = new Set(column.texts);
-    return values.size >= 2 && values.size <= Math.min(most, Math.max(2, table.rows / 2));
+    return values.size >= 2 && values.size <= (column.name === "group" ? kMostGroups : Math.min(most, Math.max(2, table.rows / 2)));
   });
 }
 

@@ -35,12 +35,19 @@ export class ModelTable {
   private rows: number[] = [];
   private chosen = -1;
   private hovered = -1;
+  private scrolled = 0; // browsers forget it of what is not shown
 
   constructor(private readonly data: Table, private readonly events: TableEvents) {
     this.root.appendChild(this.table);
-    this.root.addEventListener("scroll", () => this.draw());
+    this.root.addEventListener("scroll", () => {
+      this.scrolled = this.root.scrollTop;
+      this.draw();
+    });
     this.root.addEventListener("keydown", (event) => this.key(event));
-    new ResizeObserver(() => this.draw()).observe(this.root);
+    new ResizeObserver(() => {
+      if (this.root.clientHeight > 0) this.root.scrollTop = this.scrolled;
+      this.draw();
+    }).observe(this.root);
     this.body.addEventListener("click", (event) => this.at(event, (row) => (this.events.choose(row), this.root.focus())));
     this.body.addEventListener("dblclick", (event) => this.at(event, (row) => this.events.open(row)));
     this.body.addEventListener("mouseover", (event) => this.at(event, (row) => this.events.hover(row)));
@@ -111,7 +118,7 @@ export class ModelTable {
       this.events.choose(this.rows[next]!);
       event.preventDefault();
     }
-    if (event.key === "Enter" && this.chosen >= 0) this.events.open(this.chosen);
+    if (event.key === "Enter" && this.rows.includes(this.chosen)) this.events.open(this.chosen);
   }
 
   private draw(): void {

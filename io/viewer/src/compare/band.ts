@@ -8,7 +8,8 @@ import { interpolated } from "../archive/interpolate";
 export interface BandCurve {
   id: string;
   group: number;
-  x: Float32Array;
+  x: Float32Array; // abscissa
+  share: Float32Array; // the same over the whole length
   y: Float32Array;
 }
 
@@ -34,20 +35,22 @@ interface Band {
   high: number[];
 }
 
+const alongOf = (curve: BandCurve, byShare: boolean): Float32Array => (byShare ? curve.share : curve.x);
+
 function bandOf(curves: BandCurve[], group: number, byShare: boolean): Band | null {
   const members = curves.filter((curve) => curve.group === group && curve.x.length > 1);
   if (members.length < kLeast) return null;
-  const end = byShare ? 1 : Math.max(...members.map(lengthOf));
+  const end = byShare ? 1 : Math.max(...members.map((curve) => curve.x.at(-1)!));
   const band: Band = { group, count: members.length, x: [], low: [], middle: [], high: [] };
   for (let i = 0; i < kSamples; ++i) {
     const at = (i / (kSamples - 1)) * end;
     const values = members.flatMap((curve) => {
-      const s = curve.x[0]! + (byShare ? at * lengthOf(curve) : at);
-      if (s > curve.x.at(-1)! * (1 + 1e-6)) return [];
-      const value = interpolated(curve.x, curve.y, 0, curve.x.length, s);
+      const along = alongOf(curve, byShare);
+      if (at < along[0]! - 1e-6 * end || at > along.at(-1)! + 1e-6 * end) return [];
+      const value = interpolated(along, curve.y, 0, along.length, at);
       return Number.isFinite(value) ? [value] : [];
     });
-    if (values.length < kLeast) continue;
+    if (values.length < kLeast) values.length = 0; // a gap: its quantiles are NaN
     values.sort((a, b) => a - b);
     band.x.push(at);
     band.low.push(quantile(values, 0.25));
@@ -56,8 +59,6 @@ function bandOf(curves: BandCurve[], group: number, byShare: boolean): Band | nu
   }
   return band;
 }
-
-const lengthOf = (curve: BandCurve): number => curve.x.at(-1)! - curve.x[0]!;
 
 export class BandPlot {
   readonly drawn = new DrawnCanvas("plot", (g, theme) => this.draw(g, theme));
@@ -79,10 +80,10 @@ export class BandPlot {
     const data = this.data;
     if (!data) return;
     const top = data.chosen.flatMap((id) => data.curves.find((curve) => curve.id === id) ?? []);
-    const others = this.bands.length === 0 ? data.curves : [];
+    const others = data.curves.filter((curve) => !this.bands.some((band) => band.group === curve.group));
     const ys = [...this.bands.flatMap((band) => [...band.low, ...band.high]), ...[...top, ...others].flatMap((curve) => Array.from(curve.y))];
     const [low, high] = padded(extent(ys));
-    const end = data.byShare ? 1 : Math.max(0, ...data.curves.filter((curve) => curve.x.length > 0).map(lengthOf)) || 1;
+    const end = data.byShare ? 1 : Math.max(0, ...data.curves.map((curve) => curve.x.at(-1) ?? 0)) || 1;
     const [left, bottom] = [kMargin.left, this.drawn.height - kMargin.bottom];
     const right = this.drawn.width - kMargin.right;
     const toX = (x: number) => left + (x / end) * (right - left);
@@ -157,31 +158,42 @@ function axes(
 
 function paintBand(g: CanvasRenderingContext2D, band: Band, toX: (x: number) => number, toY: (y: number) => number, colour: string): void {
   g.fillStyle = `${colour}33`;
-  g.beginPath();
-  band.x.forEach((x, i) => g.lineTo(toX(x), toY(band.high[i]!)));
-  for (let i = band.x.length - 1; i >= 0; --i) g.lineTo(toX(band.x[i]!), toY(band.low[i]!));
-  g.closePath();
-  g.fill();
+  for (const [first, end] of runs(band.middle)) {
+    g.beginPath();
+    for (let i = first; i < end; ++i) g.lineTo(toX(band.x[i]!), toY(band.high[i]!));
+    for (let i = end - 1; i >= first; --i) g.lineTo(toX(band.x[i]!), toY(band.low[i]!));
+    g.closePath();
+    g.fill();
+  }
   g.strokeStyle = colour;
   g.lineWidth = 1.5;
-  path(g, band.x.map((x, i) => [toX(x), toY(band.middle[i]!)]));
+  pieces(g, band.x, band.middle, toX, toY);
+}
+
+/** Where there are values: first and end of each run of finite ones. */
+function runs(values: ArrayLike<number>): [number, number][] {
+  const found: [number, number][] = [];
+  for (let i = 0; i < values.length; ++i) {
+    if (!Number.isFinite(values[i]!)) continue;
+    if (found.at(-1)?.[1] === i) found.at(-1)![1] = i + 1;
+    else found.push([i, i + 1]);
+  }
+  return found;
+}
+
+function pieces(g: CanvasRenderingContext2D, x: ArrayLike<number>, y: ArrayLike<number>, toX: (x: number) => number, toY: (y: number) => number): void {
+  for (const [first, end] of runs(y))
+    path(g, Array.from({ length: end - first }, (_, i) => [toX(x[first + i]!), toY(y[first + i]!)]));
 }
 
 function paintCurve(
   g: CanvasRenderingContext2D, curve: BandCurve, byShare: boolean, toX: (x: number) => number, toY: (y: number) => number,
   colour: string, width: number, dash: number[],
 ): void {
-  if (curve.x.length === 0) return;
-  const length = lengthOf(curve) || 1;
   g.strokeStyle = colour;
   g.lineWidth = width;
   g.setLineDash(dash);
-  const points: [number, number][] = [];
-  for (let i = 0; i < curve.x.length; ++i) {
-    const s = curve.x[i]! - curve.x[0]!;
-    if (Number.isFinite(curve.y[i]!)) points.push([toX(byShare ? s / length : s), toY(curve.y[i]!)]);
-  }
-  path(g, points);
+  pieces(g, alongOf(curve, byShare), curve.y, toX, toY);
   g.setLineDash([]);
 }
 

@@ -19,22 +19,24 @@ export function branchLabels(branches: Table): string[] {
 export const sectionColumns = (sections: Table): Column[] =>
   kQuantities.flatMap((name) => column(sections, name) ?? []).filter((each) => each.numbers);
 
-/** The closed sections of the branch of that label, along its abscissa; models without it have no curve. */
+/** The closed sections of the branch of that label, along its abscissa, NaN at the others; models without it have no curve. */
 export function branchCurves(sections: Table, label: string, quantity: string): { curves: BandCurve[]; units: string } {
   const [ids, labels] = ["id", "branch_label"].map((name) => column(sections, name)?.texts ?? []) as [string[], string[]];
-  const [at, closed] = ["abscissa", "closed"].map((name) => column(sections, name)?.numbers) as [Float64Array?, Float64Array?];
+  const [at, share, closed] = ["abscissa", "abscissa_relative", "closed"].map((name) => column(sections, name)?.numbers);
   const values = column(sections, quantity);
-  if (!at || !values?.numbers) return { curves: [], units: "" };
-  const points = new Map<string, [number, number][]>();
+  if (!at || !share || !values?.numbers) return { curves: [], units: "" };
+  const rows = new Map<string, number[]>();
   for (let row = 0; row < sections.rows; ++row) {
-    if (labels[row] !== label || closed?.[row] === 0) continue;
-    const own = points.get(ids[row]!) ?? [];
-    own.push([at[row]!, values.numbers[row]!]);
-    points.set(ids[row]!, own);
+    if (labels[row] !== label) continue;
+    const own = rows.get(ids[row]!) ?? [];
+    own.push(row);
+    rows.set(ids[row]!, own);
   }
-  const curves = [...points].map(([id, own]) => {
-    own.sort((a, b) => a[0] - b[0]);
-    return { id, group: 0, x: Float32Array.from(own, (p) => p[0]), y: Float32Array.from(own, (p) => p[1]) };
+  const measured = (row: number) => (closed?.[row] === 0 ? NaN : values.numbers![row]!);
+  const curves = [...rows].map(([id, own]) => {
+    own.sort((a, b) => at[a]! - at[b]!);
+    const of = (value: (row: number) => number) => Float32Array.from(own, value);
+    return { id, group: 0, x: of((row) => at[row]!), share: of((row) => share[row]!), y: of(measured) };
   });
   return { curves, units: values.units };
 }

@@ -133,7 +133,7 @@ export class Panes {
     const categories = [...new Set(all)].slice(0, 40);
     return found.map((side) => side && {
       values: side.values,
-      bar: { what, field: side.field, map: look.map, range, categories: side.field.kind === "category" ? categories : [], cut: range !== whole },
+      bar: { what, field: side.field, map: look.map, range, categories: side.field.kind === "category" ? categories : [], empty: all.length === 0, cut: range !== whole },
     });
   }
 }

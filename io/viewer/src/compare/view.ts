@@ -120,8 +120,8 @@ export class CompareView implements View {
       if (this.looking) this.panes.looking = this.looking;
       else this.panes.frame();
     });
-    void this.show();
-    void this.profile();
+    await this.show(); // before the cohort, which may be large
+    if (!this.gone) void this.profile();
   }
 
   private show(): Promise<void> {
@@ -218,8 +218,9 @@ export class CompareView implements View {
     const { answer, cancel } = this.app.client.stream("profiles", { ids: order, path: kLines + this.quantity, line: this.line }, (part) => {
       const curve = part as { id: string; x?: Float32Array; y?: Float32Array; units?: string };
       profiled.read += 1;
-      if (curve.x && curve.y) {
-        profiled.curves.push({ id: curve.id, group: 0, x: curve.x, y: curve.y });
+      if (curve.x && curve.y && curve.x.length > 0) {
+        const length = curve.x.at(-1)!;
+        profiled.curves.push({ id: curve.id, group: 0, x: curve.x, share: curve.x.map((x) => x / length), y: curve.y });
         profiled.units ||= curve.units ?? "";
       }
       this.drawSoon(profiled);

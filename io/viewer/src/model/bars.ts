@@ -11,6 +11,7 @@ export interface Bar {
   map: MapName;
   range: [number, number];
   categories: number[]; // ids that occur, for fields of ids
+  empty: boolean; // no point has a value
   cut: boolean; // whether values lie beyond the range
 }
 
@@ -20,24 +21,34 @@ export const barTitle = (bar: Bar): string => {
   return `${bar.field.label}${symbol}${units ? ` [${units}]` : ""}`;
 };
 
+const kMostPatches = 12;
+
+/** Numbers below a bar, at shares of its length: both ends, and round values between them. */
+function marksOf([low, high]: [number, number]): { share: number; text: string }[] {
+  if (!(high > low)) return [{ share: 0, text: number(low) }];
+  const values = ticks(low, high, 4);
+  const step = values.length > 1 ? values[1]! - values[0]! : 1;
+  const inner = values.map((value) => ({ share: (value - low) / (high - low), text: tickText(value, step) }));
+  return [{ share: 0, text: number(low) }, ...inner.filter(({ share }) => share > 0.25 && share < 0.75), { share: 1, text: number(high) }];
+}
+
 export function colourBar(bar: Bar): HTMLElement {
   const title = h("div", { class: "bar-title" }, h("span", { class: "quiet-text" }, `${bar.what}: `), barTitle(bar));
+  if (bar.empty) return h("div", { class: "bar" }, title, h("div", { class: "quiet-text" }, "no values"));
   if (bar.field.kind === "category") {
-    const shown = bar.categories.slice(0, 12).map((id) => {
+    const shown = bar.categories.slice(0, kMostPatches).map((id) => {
       const patch = h("i");
       patch.style.background = categoryColour(id);
       return h("span", { class: "patch" }, patch, String(id));
     });
-    return h("div", { class: "bar" }, title, h("div", { class: "patches" }, shown, bar.categories.length > 12 && "…"));
+    return h("div", { class: "bar" }, title, h("div", { class: "patches" }, shown, bar.categories.length > kMostPatches && "…"));
   }
   const strip = h("div", { class: "strip" });
   strip.style.background = gradient(bar.map, "right");
   const [low, high] = bar.range;
-  const values = ticks(low, high, 4);
-  const step = values.length > 1 ? values[1]! - values[0]! : 1;
-  const scale = h("div", { class: "bar-ticks" }, values.map((value) => {
-    const tick = h("span", {}, tickText(value, step));
-    tick.style.left = `${((value - low) / (high - low || 1)) * 100}%`;
+  const scale = h("div", { class: "bar-ticks" }, marksOf(bar.range).map(({ share, text }) => {
+    const tick = h("span", {}, text);
+    tick.style.left = `${share * 100}%`;
     return tick;
   }));
   const hint = bar.cut ? "from the 1st to the 99th percentile; what lies beyond has the colours of the ends" : "all values";
@@ -46,28 +57,46 @@ export function colourBar(bar: Bar): HTMLElement {
 
 /** The same bars on a picture, from the top right corner down. */
 export function paintBars(g: CanvasRenderingContext2D, bars: Bar[], width: number, scale: number, text: string): void {
-  const [w, strip] = [220 * scale, 10 * scale];
+  const w = 220 * scale;
   let y = 14 * scale;
   const x = width - w - 16 * scale;
   g.font = `${11 * scale}px sans-serif`;
-  for (const bar of bars.filter((candidate) => candidate.field.kind === "scale")) {
+  g.textBaseline = "top";
+  for (const bar of bars) {
     g.fillStyle = text;
     g.textAlign = "left";
-    g.textBaseline = "top";
-    g.fillText(barTitle(bar), x, y);
+    g.fillText(bar.empty ? `${barTitle(bar)}: no values` : barTitle(bar), x, y);
     y += 16 * scale;
-    const colours = g.createLinearGradient(x, 0, x + w, 0);
-    const stops = gradient(bar.map, "right").match(/rgb\([^)]*\)|#[0-9a-f]{6}/gi) ?? [];
-    stops.forEach((colour, i) => colours.addColorStop(i / (stops.length - 1), colour));
-    g.fillStyle = colours;
-    g.fillRect(x, y, w, strip);
-    y += strip + 3 * scale;
-    g.fillStyle = text;
-    const [low, high] = bar.range;
-    const values = ticks(low, high, 4);
-    const step = values.length > 1 ? values[1]! - values[0]! : 1;
-    g.textAlign = "center";
-    for (const value of values) g.fillText(tickText(value, step), x + ((value - low) / (high - low || 1)) * w, y);
-    y += 22 * scale;
+    if (bar.empty) continue;
+    y = bar.field.kind === "category" ? paintPatches(g, bar, x, y, w, scale, text) : paintStrip(g, bar, x, y, w, scale, text);
   }
+}
+
+function paintStrip(g: CanvasRenderingContext2D, bar: Bar, x: number, y: number, w: number, scale: number, text: string): number {
+  const strip = 10 * scale;
+  const colours = g.createLinearGradient(x, 0, x + w, 0);
+  const stops = gradient(bar.map, "right").match(/rgb\([^)]*\)|#[0-9a-f]{6}/gi) ?? [];
+  stops.forEach((colour, i) => colours.addColorStop(i / (stops.length - 1), colour));
+  g.fillStyle = colours;
+  g.fillRect(x, y, w, strip);
+  g.fillStyle = text;
+  for (const mark of marksOf(bar.range)) {
+    g.textAlign = mark.share === 0 ? "left" : mark.share === 1 ? "right" : "center";
+    g.fillText(mark.text, x + mark.share * w, y + strip + 3 * scale);
+  }
+  return y + strip + 25 * scale;
+}
+
+function paintPatches(g: CanvasRenderingContext2D, bar: Bar, left: number, top: number, w: number, scale: number, text: string): number {
+  let [x, y] = [left, top];
+  for (const id of bar.categories.slice(0, kMostPatches)) {
+    const needed = g.measureText(String(id)).width + 20 * scale;
+    if (x + needed > left + w) [x, y] = [left, y + 15 * scale];
+    g.fillStyle = categoryColour(id);
+    g.fillRect(x, y + scale, 9 * scale, 9 * scale);
+    g.fillStyle = text;
+    g.fillText(String(id), x + 12 * scale, y);
+    x += needed;
+  }
+  return y + 22 * scale;
 }

@@ -1,8 +1,9 @@
 // What is known of a model and of the site that was picked, on the right.
 import type { Cohort, MarkedTable, Model, Site } from "../archive/protocol";
 import { columnOf } from "../cohort/rows";
+import { measureTitle } from "../cohort/points";
 import { statusClass } from "../cohort/table";
-import { fill, h, number, withUnits } from "../ui/dom";
+import { fill, h, number, problems, withUnits } from "../ui/dom";
 import { markName } from "./panel";
 
 const kLabels = ["group", "subject", "session", "side", "structure"];
@@ -43,17 +44,13 @@ export class Info {
       this.findings(),
       this.tables,
       this.provenance());
-    this.note(model.notes);
+    this.notes.append(...problems(model.notes));
     this.showSite(null);
-  }
-
-  private note(sentences: string[]): void {
-    this.notes.append(...sentences.map((sentence) => h("p", { class: "problem" }, sentence)));
   }
 
   /** What has a place in the model, and what could not be read of it. */
   showMarks(marks: MarkedTable[], notes: string[]): void {
-    this.note(notes);
+    this.notes.append(...problems(notes));
     fill(this.tables, marks.map((marked) => this.marked(marked)));
     this.tables.dataset.ready = "1";
   }
@@ -92,7 +89,7 @@ export class Info {
       h("tr", {}, columns.map((column) => h("td", {}, column.numbers ? number(column.numbers[row]!) : column.texts![row]!))));
     return h("details", {}, h("summary", {}, `${markName(name)} (${table.rows})`),
       h("div", { class: "small-table", tabindex: "0" }, h("table", {},
-        h("thead", {}, h("tr", {}, columns.map((column) => h("th", { title: column.description }, column.label, column.units !== "1" && column.units ? ` [${column.units}]` : "")))),
+        h("thead", {}, h("tr", {}, columns.map((column) => h("th", { title: column.description }, measureTitle(column.label, column.units))))),
         h("tbody", {}, rows))),
       shown < table.rows && h("p", { class: "quiet" }, `and ${table.rows - shown} more`));
   }

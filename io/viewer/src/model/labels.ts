@@ -33,6 +33,17 @@ export class EndLabels {
     this.place();
   }
 
+  /** The same on a picture that is `scale` times as large. */
+  paint(g: CanvasRenderingContext2D, scale: number, text: string): void {
+    g.textAlign = "center";
+    g.textBaseline = "bottom";
+    g.fillStyle = text;
+    for (const { at, element } of this.labels) {
+      const place = this.on && !element.hidden && this.stage.project(at);
+      if (place) g.fillText(element.textContent!, place.x * scale, (place.y - 6) * scale);
+    }
+  }
+
   place(): void {
     if (!this.on) return;
     const taken: [number, number, number][] = [];

@@ -70,6 +70,7 @@ function texture(bytes: Uint8Array, filter: THREE.MagnificationTextureFilter): T
 }
 
 const maps = new Map<MapName, THREE.DataTexture>();
+const palette = texture(categoryBytes(), THREE.NearestFilter);
 
 function mapTexture(name: MapName): THREE.DataTexture {
   const known = maps.get(name);
@@ -96,7 +97,7 @@ export class FieldMaterial extends THREE.ShaderMaterial {
       side: options.side ?? THREE.DoubleSide,
       uniforms: {
         map: { value: mapTexture("viridis") },
-        palette: { value: texture(categoryBytes(), THREE.NearestFilter) },
+        palette: { value: palette },
         range: { value: new THREE.Vector2(0, 1) },
         mode: { value: 0 },
         opacity: { value: 1 },

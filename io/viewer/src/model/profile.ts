@@ -14,15 +14,16 @@ export interface Curve {
 const kAxis = 44;
 
 export class ProfilePlot {
-  readonly root = h("div", { class: "profile" });
+  readonly root = h("div", { class: "profile", role: "img" });
   private plot: uPlot | null = null;
   private curve: Curve | null = null;
   private at = NaN;
   private readonly observer = new ResizeObserver(() => this.resize());
   private readonly themed = () => this.make();
 
-  /** `moved` is told the abscissa under the pointer, `left` whether it is to stay. */
-  constructor(private readonly moved: (abscissa: number, stays: boolean) => void) {
+  /** `moved` is told the abscissa under the pointer, and whether it is to stay; `left` that the pointer went away. */
+  constructor(private readonly moved: (abscissa: number, stays: boolean) => void, left: () => void) {
+    this.root.addEventListener("mouseleave", left);
     this.observer.observe(this.root);
     addEventListener("themechange", this.themed);
   }
@@ -35,6 +36,7 @@ export class ProfilePlot {
 
   show(curve: Curve | null): void {
     this.curve = curve;
+    this.root.setAttribute("aria-label", curve ? `${curve.yTitle} over ${curve.xTitle}` : "nothing to plot");
     this.make();
   }
 

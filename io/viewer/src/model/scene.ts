@@ -132,6 +132,7 @@ export class ModelScene {
 
   /** Puts a dark sleeve around one line of several, so that it can be told from the others. */
   chooseLine(line: number, on: boolean): void {
+    if (this.chosenLine && on && this.chosenLine.userData.line === line) return;
     if (this.chosenLine) this.remove(this.chosenLine);
     this.chosenLine = null;
     const { lines } = this.model;
@@ -141,6 +142,7 @@ export class ModelScene {
     const material = new FieldMaterial(0x0b6e8a, { rim: 0.4 });
     material.show({ mode: "plain", map: "viridis", range: [0, 1], opacity: 0.35 });
     this.chosenLine = this.add(new THREE.Mesh(made.geometry, material), 2);
+    this.chosenLine.userData.line = line;
   }
 
   showPolygons(on: boolean, added: boolean, voronoi: Voronoi | null, look: Look, values: Float32Array | null): void {

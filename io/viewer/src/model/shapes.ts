@@ -129,5 +129,7 @@ export function valued(points: Float32Array, normals: Float32Array | null, index
 }
 
 export function setValues(geometry: THREE.BufferGeometry, values: Float32Array): void {
-  geometry.setAttribute("value", new THREE.BufferAttribute(values, 1));
+  const attribute = geometry.getAttribute("value") as THREE.BufferAttribute;
+  attribute.copyArray(values);
+  attribute.needsUpdate = true;
 }

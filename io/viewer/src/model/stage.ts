@@ -64,6 +64,7 @@ export class Stage {
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.root);
     addEventListener("themechange", this.themed);
+    canvas.addEventListener("webglcontextrestored", () => this.redraw());
     this.background();
   }
 

@@ -73,6 +73,7 @@ class Loaded {
   private readonly fields = new Map<string, Promise<Float32Array>>();
   private marks: MarkedTable[] = [];
   private drawing = 0;
+  private drawingProfile = 0;
   private gone = false;
   private shownBars: Bar[] = [];
   private rememberAt = 0;
@@ -85,17 +86,18 @@ class Loaded {
     this.labels = new EndLabels(this.scene.stage, model);
     this.panel = new Panel(model, () => this.settings, (settings) => this.apply(settings));
     this.info = new Info(model, app.cohort, () => void this.pick(-1));
-    this.profile = new ProfilePlot((abscissa, stays) => this.atAbscissa(abscissa, stays));
+    this.profile = new ProfilePlot((abscissa, stays) => this.atAbscissa(abscissa, stays), () => this.moveTo(this.settings.at, false));
     this.place.addEventListener("input", () => this.moveTo(Number(this.place.value)));
-    const nothing = !model.surface && !model.lines;
     fill(root, this.panel.root,
       h("section", { class: "middle" },
-        h("div", { class: "scene-frame" }, nothing ? h("div", { class: "message" }, h("p", {}, "This file holds no geometry.")) : this.scene.stage.root,
-          this.labels.root, this.bars, this.tools()),
+        h("div", { class: "scene-frame" }, this.hasGeometry
+          ? [this.scene.stage.root, this.labels.root, this.bars, this.tools()]
+          : h("div", { class: "message" }, h("p", {}, "This file holds no geometry."))),
         model.lines && model.lines.offsets.length > 1 && this.strip(model.lines)),
       this.info.root);
     const looking = state.get("cam");
     requestAnimationFrame(() => {
+      if (this.gone) return;
       if (looking) this.scene.stage.looking = looking;
       else this.scene.stage.frame();
     });
@@ -113,6 +115,10 @@ class Loaded {
     this.profile.dispose();
     this.labels.dispose();
     this.scene.dispose();
+  }
+
+  private get hasGeometry(): boolean {
+    return Boolean(this.model.surface || this.model.lines);
   }
 
   private tools(): HTMLElement {
@@ -161,6 +167,7 @@ class Loaded {
   /** The address follows, but not at each step of a drag: browsers refuse too many changes. */
   private remember(): void {
     clearTimeout(this.rememberAt);
+    if (this.gone) return;
     this.rememberAt = window.setTimeout(() => this.app.remember(this.address()), 250);
   }
 
@@ -188,7 +195,7 @@ class Loaded {
     let range: [number, number] = whole ? whole_ : [quantile(sorted, 0.01), quantile(sorted, 0.99)];
     if (!(range[1] > range[0])) range = whole_;
     const categories = field.kind === "category" ? [...new Set(sorted)] : [];
-    return { field, values, bar: { what, field, map, range, categories, cut: range[0] > whole_[0] || range[1] < whole_[1] } };
+    return { field, values, bar: { what, field, map, range, categories, empty: sorted.length === 0, cut: range[0] > whole_[0] || range[1] < whole_[1] } };
   }
 
   /** Values of the sites that the wall has triangles at: extensions and caps have none to look at. */
@@ -227,7 +234,7 @@ class Loaded {
       this.labels.show(settings.ends);
       this.shownBars = [wall, polygons, lines].flatMap((shown) => (shown ? [shown.bar] : []));
       fill(this.bars, problems(said), this.shownBars.map(colourBar));
-      this.moveTo(settings.at, false);
+      this.moveTo(this.settings.at, false); // it may have been moved meanwhile
       this.scene.stage.root.dataset.ready = String(turn);
     } catch (error) {
       fill(this.bars, problems([sentenceOf(error)]));
@@ -257,7 +264,9 @@ class Loaded {
     if (!lines || !field) return;
     const error = lines.fields.find((candidate) => candidate.key === `${field.key}_error`);
     const said: string[] = [];
+    const turn = ++this.drawingProfile;
     const [values, errors] = await Promise.all([tried(said, this.values(field)), error ? tried(said, this.values(error)) : null]);
+    if (turn !== this.drawingProfile || this.gone) return;
     fill(this.profileProblems, problems(said));
     const [first, end] = this.span();
     this.profile.show(values && {
@@ -326,13 +335,14 @@ class Loaded {
     this.remember();
     try {
       const site = index < 0 ? null : await this.app.client.call("site", { id: this.model.id, index });
-      if (this.settings.site !== index) return;
+      if (this.gone || this.settings.site !== index) return;
       this.scene.showPicked(site);
       this.info.showSite(site);
       if (!site || site.line < 0 || !this.model.lines || site.line >= this.model.lines.offsets.length - 1) return;
       if (site.line !== this.settings.line) this.apply({ ...this.settings, line: site.line });
       if (Number.isFinite(site.abscissa)) this.atAbscissa(site.abscissa, true);
     } catch (error) {
+      if (this.gone || this.settings.site !== index) return;
       this.settings = { ...this.settings, site: -1 };
       fill(this.bars, problems([sentenceOf(error)]));
     }
@@ -344,6 +354,7 @@ class Loaded {
     const g = canvas.getContext("2d")!;
     const text = getComputedStyle(document.documentElement).getPropertyValue("--text");
     paintBars(g, this.shownBars, canvas.width, scale, text);
+    this.labels.paint(g, scale, text);
     g.textAlign = "left";
     g.textBaseline = "bottom";
     g.fillStyle = text;
@@ -364,10 +375,9 @@ class Loaded {
 
   key(event: KeyboardEvent): void {
     const { lines } = this.model;
-    if (event.target instanceof HTMLInputElement && event.key.startsWith("Arrow")) return;
     if (this.scene.stage.key(event)) return;
     if (event.key === "v") this.panel.nextPreset();
-    else if (event.key === "s") this.picture();
+    else if (event.key === "s" && this.hasGeometry) this.picture();
     else if (event.key === "c") void this.copyLink();
     else if (event.key === "Escape") void this.pick(-1);
     else if (event.key === "," || event.key === ".") this.moveTo(Math.min(1, Math.max(0, this.settings.at + (event.key === "." ? 0.01 : -0.01))));
@@ -380,4 +390,4 @@ const tried = <T>(said: string[], read: Promise<T>): Promise<T | null> =>
   read.catch((error: unknown) => (said.push(sentenceOf(error)), null));
 
 const barTitleOf = (field: Field): string =>
-  barTitle({ what: "", field, map: "viridis", range: [0, 1], categories: [], cut: false });
+  barTitle({ what: "", field, map: "viridis", range: [0, 1], categories: [], empty: false, cut: false });

@@ -12,7 +12,7 @@ export const kMaps = {
 export type MapName = keyof typeof kMaps;
 export const kMapNames = Object.keys(kMaps) as MapName[];
 
-export const kCategories = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#7f7f7f"];
+const kPalette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#7f7f7f"];
 
 type Rgb = [number, number, number];
 
@@ -20,6 +20,17 @@ function rgb(text: string): Rgb {
   if (text.startsWith("#")) return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16)) as Rgb;
   return (text.match(/\d+/g) ?? ["0", "0", "0"]).slice(0, 3).map(Number) as Rgb;
 }
+
+/** `colour` on the way to another, as "#rrggbb". */
+function mixed(colour: string, to: Rgb, share: number): string {
+  const parts = rgb(colour).map((part, i) => Math.round(part + share * (to[i]! - part)));
+  return `#${parts.map((part) => part.toString(16).padStart(2, "0")).join("")}`;
+}
+
+/** The palette, and for the ninth and what follows the same in light and in dark. */
+export const kCategories = [
+  ...kPalette, ...kPalette.map((colour) => mixed(colour, [255, 255, 255], 0.55)), ...kPalette.map((colour) => mixed(colour, [0, 0, 0], 0.5)),
+];
 
 /** `count` colours along a map, as RGBA bytes. */
 export function mapBytes(name: MapName, count: number): Uint8Array {

@@ -32,11 +32,23 @@ function add(parent: Node, children: Child[]): void {
   }
 }
 
-/** Replaces what `parent` holds. */
+/** Replaces what `parent` holds. The keyboard stays with the control that takes the place of the one it was with. */
 export function fill(parent: Element, ...children: Child[]): void {
+  const active = document.activeElement;
+  const place = active && active !== parent && parent.contains(active) ? controls(parent).indexOf(active as HTMLElement) : -1;
+  const name = place >= 0 ? nameOf(active!) : "";
   parent.replaceChildren();
   add(parent, children);
+  if (place < 0) return;
+  const made = controls(parent);
+  (made.find((control) => nameOf(control) === name) ?? made[place])?.focus({ preventScroll: true });
 }
+
+const controls = (parent: Element): HTMLElement[] => [...parent.querySelectorAll<HTMLElement>("a, button, input, select, [tabindex]")];
+
+/** What a control is called: the text of its label or its own, without the mark of a sorted column. */
+const nameOf = (control: Element): string =>
+  control.getAttribute("aria-label") ?? (control as HTMLInputElement).labels?.[0]?.textContent ?? control.querySelector(".label")?.textContent ?? control.textContent ?? "";
 
 let labels = 0;
 

@@ -43,11 +43,6 @@ export class StartView {
     const folder = h("input", { type: "file", webkitdirectory: true, id: "open-folder", on: { change: () => this.chosen(folder) } });
     this.root = h("main", {
       class: "start",
-      on: {
-        dragover: (event) => (event.preventDefault(), this.root.classList.add("over")),
-        dragleave: () => this.root.classList.remove("over"),
-        drop: (event) => void this.dropped(event),
-      },
     },
       h("h1", {}, "Open an archive"),
       h("p", {}, "Drop an archive here: the folder that holds cohort.h5, a packed archive (.h5), or one model file (.hdf). It is read where it lies; nothing is sent anywhere."),
@@ -55,7 +50,24 @@ export class StartView {
         h("label", { class: "button", for: "open-folder" }, "Choose a folder", folder),
         h("label", { class: "button", for: "open-file" }, "Choose a file", file)),
       this.problem);
+    // Wherever on the page: beside the box, browsers would leave the page for the file.
+    document.addEventListener("dragover", this.dragged);
+    document.addEventListener("dragleave", this.dragEnds);
+    document.addEventListener("drop", this.drop);
   }
+
+  dispose(): void {
+    document.removeEventListener("dragover", this.dragged);
+    document.removeEventListener("dragleave", this.dragEnds);
+    document.removeEventListener("drop", this.drop);
+  }
+
+  private readonly dragged = (event: DragEvent): void => {
+    event.preventDefault();
+    this.root.classList.add("over");
+  };
+  private readonly dragEnds = (): void => this.root.classList.remove("over");
+  private readonly drop = (event: DragEvent): void => void this.dropped(event);
 
   private use(found: Map<string, Blob>): void {
     const opened = arrange(found);
