@@ -29,7 +29,7 @@ function marksOf([low, high]: [number, number]): { share: number; text: string }
   const values = ticks(low, high, 4);
   const step = values.length > 1 ? values[1]! - values[0]! : 1;
   const inner = values.map((value) => ({ share: (value - low) / (high - low), text: tickText(value, step) }));
-  return [{ share: 0, text: number(low) }, ...inner.filter(({ share }) => share > 0.25 && share < 0.75), { share: 1, text: number(high) }];
+  return [{ share: 0, text: number(low) }, ...inner.filter(({ share }) => share > 0.33 && share < 0.67), { share: 1, text: number(high) }];
 }
 
 export function colourBar(bar: Bar): HTMLElement {
