@@ -86,9 +86,13 @@ void leave_out(Coverage& coverage, const std::string& reason, std::size_t rows) 
     coverage.left_out.emplace_back(reason, rows);
 }
 
+bool is_missing(const DataColumn& column, std::size_t row) {
+    return column.is_number() ? std::isnan(column.numbers()[row]) : is_missing(column.texts()[row]);
+}
+
 std::string cell_text(const DataColumn& column, std::size_t row) {
-    if (!column.is_number()) return column.texts()[row];
-    return std::isnan(column.numbers()[row]) ? "" : exact_text(column.numbers()[row]);
+    if (is_missing(column, row)) return "";
+    return column.is_number() ? exact_text(column.numbers()[row]) : column.texts()[row];
 }
 
 const DataColumn& column_of(const DataTable& table, std::string_view name) {

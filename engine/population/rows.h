@@ -10,7 +10,10 @@
 
 namespace lumenline {
 
-/// Text of a table's cell: numbers as they are written elsewhere, NaN as empty.
+/// Has a table's cell no value: NaN, no text, or "n/a"?
+bool is_missing(const DataColumn& column, std::size_t row);
+
+/// Text of a table's cell: numbers as they are written elsewhere, what is missing as empty.
 std::string cell_text(const DataColumn& column, std::size_t row);
 
 /// The column of that name. @throws StudyError with the nearest names

@@ -50,7 +50,7 @@ void write_rows(const DataTable& table, std::span<const std::size_t> rows, Table
             const DataColumn& column = table.columns[c];
             out << (c > 0 ? style.separator : "");
             if (!column.is_number())
-                out << quoted(column.texts()[row], style);
+                out << (is_missing(column.texts()[row]) ? style.missing : quoted(column.texts()[row], style));
             else if (std::isnan(column.numbers()[row]))
                 out << style.missing;
             else

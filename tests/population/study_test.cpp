@@ -47,6 +47,26 @@ TEST(Study, RowsOfASubjectAreAveragedAndFailuresLeftOut) {
     EXPECT_EQ(study.comparisons[0].welch.difference.value, -3);
 }
 
+TEST(Study, TextThatSaysNotAvailableIsNoGroupAndNoLevel) {
+    DataTable table = sample();
+    table.columns.push_back(
+        {"smoker", "1", "covariate", false, Texts{"yes", "yes", "n/a", "no", "n/a", "yes", "no", ""}});
+    StudyOptions options;
+    options.by = "smoker";
+    const Study by = study_table(table, options);
+    ASSERT_EQ(by.groups.size(), 2U);
+    EXPECT_EQ(by.groups[0].group, "no");
+    EXPECT_EQ(by.groups[1].group, "yes");
+    EXPECT_EQ(by.groups[0].coverage.reasons(), "1 failed, 2 without 'smoker', 1 without a value");
+    options = {};
+    options.adjust = {"smoker"};
+    const Study adjusted = study_table(table, options);
+    ASSERT_EQ(adjusted.regressions.size(), 1U);
+    ASSERT_EQ(adjusted.regressions[0].model.terms.size(), 2U) << "the intercept and one level beside the first";
+    EXPECT_EQ(adjusted.regressions[0].model.terms[1].name, "smoker=yes");
+    EXPECT_NE(adjusted.regressions[0].coverage.reasons().find("2 without a covariate"), std::string::npos);
+}
+
 TEST(Study, ModelsRatedBadAreLeftOut) {
     DataTable table = sample();
     table.columns.push_back({"rating", "1", "", false, Texts{"", "", "", "bad", "good", "", "", ""}});
