@@ -25,7 +25,11 @@ const DataColumn& numbers_of(const DataTable& table, std::string_view name);
 /// @param coverage  counts the rest, by reason
 std::vector<std::size_t> select_rows(const DataTable& table, const StudyOptions& options, Coverage& coverage);
 
-/// Rows that meet all conditions ("COLUMN OP VALUE"), whatever became of their models. @throws StudyError
+/// Rows that meet all conditions, whatever became of their models.
+///
+/// A condition is "COLUMN OP VALUE", OP one of = != < <= > >=. What is missing meets none but "COLUMN =", and all else
+/// meets "COLUMN !=". Text is compared as it stands, but ordered as the numbers that it says.
+/// @throws StudyError for what is no condition, and where there is no number to compare with
 std::vector<std::size_t> rows_where(const DataTable& table, const std::vector<std::string>& conditions);
 
 /// The columns that conditions name. @throws StudyError

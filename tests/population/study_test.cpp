@@ -83,6 +83,42 @@ TEST(Study, ConditionsMustAllHold) {
     EXPECT_EQ(study.coverage.reasons(), "4 outside of the conditions, 1 failed");
 }
 
+TEST(Conditions, WhatIsMissingMeetsNoneButThatItIs) {
+    DataTable table = sample();
+    table.columns.push_back({"smoker", "1", "", false, Texts{"yes", "no", "n/a", "", "yes", "no", "no", "no"}});
+    const auto rows = [&](const std::string& condition) { return rows_where(table, {condition}); };
+    using Rows = std::vector<std::size_t>;
+    EXPECT_EQ(rows("radius ="), (Rows{5}));
+    EXPECT_EQ(rows("radius!="), (Rows{0, 1, 2, 3, 4, 6, 7}));
+    EXPECT_EQ(rows("radius != 5"), (Rows{0, 1, 2, 3, 6, 7}));
+    EXPECT_EQ(rows("smoker="), (Rows{2, 3}));
+    EXPECT_EQ(rows("smoker = n/a"), (Rows{2, 3}));
+    EXPECT_EQ(rows("smoker !="), (Rows{0, 1, 4, 5, 6, 7}));
+    EXPECT_EQ(rows("smoker != no"), (Rows{0, 4}));
+    EXPECT_EQ(rows("radius < inf"), (Rows{0, 1, 2, 3, 4, 6, 7}));
+}
+
+TEST(Conditions, TextIsOrderedAsNumbersOrNotAtAll) {
+    DataTable table{"models", 4, {}};
+    table.columns.push_back({"visit", "1", "", false, Texts{"9", "10", "", "100"}});
+    table.columns.push_back({"side", "1", "", false, Texts{"left", "right", "", "7"}});
+    EXPECT_EQ(rows_where(table, {"visit >= 10"}), (std::vector<std::size_t>{1, 3}));
+    EXPECT_THROW(rows_where(table, {"visit < x"}), StudyError);
+    EXPECT_THROW(rows_where(table, {"side < 8"}), StudyError);
+}
+
+TEST(Conditions, NumbersAreComparedWithNumbersOnly) {
+    for (const char* condition :
+         {"age < 1e999", "age = -1e999", "age <", "age >= n/a", "age = x", "age = 3x", "age = nan"})
+        try {
+            rows_where(sample(), {condition});
+            ADD_FAILURE() << condition;
+        } catch (const StudyError& error) {
+            EXPECT_NE(std::string(error.what()).find("which is no number, or out of range"), std::string::npos)
+                << error.what();
+        }
+}
+
 TEST(Study, BootstrapKeepsRowsAndDrawsSubjects) {
     StudyOptions options = by_group();
     options.bootstrap = 200;
