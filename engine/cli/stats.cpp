@@ -211,9 +211,12 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--table", request->table, "table of the index: models, branches, ...")->capture_default_str();
     verb->add_option("--measure", study.measures, "columns, with commas between; default: all measures of the table")
         ->delimiter(',');
-    verb->add_option("--where", study.where, "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold");
-    verb->add_option("--subject", study.subject, "column of subjects, whose rows are not independent")
-        ->capture_default_str();
+    verb->add_option(
+        "--where", study.where,
+        "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold; 'COLUMN =' is what has no value, "
+        "'COLUMN !=' the rest");
+    verb->add_option("--subject", study.subject,
+                     "column of subjects, whose rows are not independent; default: subject, where the table has it");
     verb->add_option("--label", study.label, "column whose values are studied apart, as branch_label");
     verb->add_option("--bin-by", study.bin_by,
                      "column of numbers from 0 to 1 to make a profile over, as abscissa_relative of sections");
