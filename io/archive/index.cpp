@@ -137,9 +137,9 @@ std::string dataset_name(const std::string& column, std::set<std::string>& taken
     return candidate;
 }
 
-/// Names of our own columns.
+/// Names of our own columns, and of those that a printed list of the models has beside them.
 std::set<std::string> own_columns() {
-    std::set<std::string> own;
+    std::set<std::string> own{"lines", "seconds"};
     const std::string prefix = std::string(names::kModelTable) + "/";
     for (const names::Field& field :
          {names::kId,           names::kStatus,         names::kSubject,     names::kSession,

@@ -132,6 +132,28 @@ TEST(Browse, ListSortsByAnyColumnWithMissingValuesLast) {
     EXPECT_TRUE(contains(printed.out, "seconds    age\n")) << printed.out;
 }
 
+TEST(Browse, ListTakesNotAvailableForMissingText) {
+    std::vector<ModelRecord> records{sample_record("a"), sample_record("b"), sample_record("c"), sample_record("d")};
+    const char* const stages[] = {"n/a", "II", "", "I"};
+    for (std::size_t i = 0; i < records.size(); ++i) records[i].identity.covariates = {{"stage", stages[i]}};
+    const std::string archive = archive_of(records, "browse_missing_text");
+    EXPECT_EQ(listed(archive, {"--sort", "stage"}), "d b a c ");
+    EXPECT_EQ(listed(archive, {"--sort", "stage", "--desc"}), "b d a c ");
+    const Printed csv = run({"browse", archive, "list", "--csv"});
+    EXPECT_FALSE(contains(csv.out, "n/a")) << csv.out;
+}
+
+TEST(Browse, ListKeepsCovariatesApartFromItsOwnColumns) {
+    ModelRecord record = sample_record("a");
+    record.identity.covariates = {{"seconds", "7"}, {"lines", "9"}};
+    const std::string archive = archive_of({record}, "browse_own_columns");
+    const auto models = nlohmann::json::parse(run({"browse", archive, "list", "--json"}).out);
+    EXPECT_EQ(models[0].at("seconds"), 2.8);
+    EXPECT_EQ(models[0].at("covariate_seconds"), 7);
+    EXPECT_EQ(models[0].at("covariate_lines"), 9);
+    EXPECT_EQ(listed(archive, {"--where", "seconds < 3", "--where", "lines = 2"}), "a ") << "as they are printed";
+}
+
 TEST(Browse, ListSelectsByTheWordsOfStats) {
     const std::string archive = ranked_archive();
     EXPECT_EQ(listed(archive, {"--where", "status=failed"}), "m1 ") << "failed models can be asked for";
