@@ -80,6 +80,7 @@ TEST(Browse, ShowTellsWhoWhatAndWhy) {
                              "0.3333", "(0.33333, 1, 2)"})
         EXPECT_TRUE(contains(good.out, part)) << part << "\n" << good.out;
     EXPECT_TRUE(contains(good.out, "    1       0       3       4   1.000       1.164       1.593\n")) << good.out;
+    EXPECT_TRUE(contains(good.out, "characterization of 2 of 3 sites of the wall\n")) << good.out;
     const Printed bad = run({"browse", archive, "show", "b"});
     EXPECT_TRUE(contains(bad.out, "failed: a front needs at least one vertex to start from\n")) << bad.out;
     EXPECT_TRUE(contains(bad.out, "no_seed"));
