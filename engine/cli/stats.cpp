@@ -27,6 +27,9 @@ namespace lumenline {
 
 namespace {
 
+constexpr int kMostBins = 10'000;
+constexpr int kMostDraws = 1'000'000;  ///< beyond, intervals no longer change and draws fill the memory
+
 struct Request {
     std::string archive, table = "models", format = "text", ratings;
     StudyOptions study;
@@ -220,15 +223,16 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--label", study.label, "column whose values are studied apart, as branch_label");
     verb->add_option("--bin-by", study.bin_by,
                      "column of numbers from 0 to 1 to make a profile over, as abscissa_relative of sections");
-    verb->add_option("--bins", study.bins, "of the profile")->capture_default_str();
+    verb->add_option("--bins", study.bins, "of the profile")->check(CLI::Range(1, kMostBins))->capture_default_str();
     verb->add_option("--normalize-by", study.normalize_by, "column that measures are divided by, as body size");
     verb->add_option("--adjust", study.adjust, "covariates of a linear model beside the groups")->delimiter(',');
     verb->add_option("--correlate", study.correlate, "columns to correlate the measures with")->delimiter(',');
     verb->add_option("--retest", study.retest,
                      "column of occasions, as 'session': agreement and change between the first two");
     verb->add_option("--bootstrap", study.bootstrap,
-                     "draw whole subjects this many times for the intervals, instead of averaging each one's rows");
-    verb->add_option("--seed", study.seed, "of the draws")->capture_default_str();
+                     "draw whole subjects this many times for the intervals, instead of averaging each one's rows")
+        ->check(CLI::Range(0, kMostDraws));
+    verb->add_option("--seed", study.seed, "of the draws")->check(CLI::NonNegativeNumber)->capture_default_str();
     verb->add_option("--confidence", study.confidence, "of the intervals")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
