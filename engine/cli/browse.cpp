@@ -75,7 +75,8 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     using What = Request::What;
     const auto request = std::make_shared<Request>();
     CLI::App* verb = app.add_subcommand("browse", "Print what an archive holds");
-    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, or one model file")->required();
+    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, a packed archive, or one model file")
+        ->required();
     verb->require_subcommand(0, 1);
     verb->footer(
         "Exit status: 0 done, 1 the archive is damaged or the output cannot be written, 2 no such archive, model, "

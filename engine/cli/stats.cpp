@@ -209,7 +209,7 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     const auto request = std::make_shared<Request>();
     StudyOptions& study = request->study;
     CLI::App* verb = app.add_subcommand("stats", "Statistics of an archive's tables by group");
-    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5")->required();
+    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, or a packed archive")->required();
     verb->add_option("--by", study.by, "column whose groups are compared; without it all rows are one group");
     verb->add_option("--table", request->table, "table of the index: models, branches, ...")->capture_default_str();
     verb->add_option("--measure", study.measures, "columns, with commas between; default: all measures of the table")
@@ -244,7 +244,8 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
         ->capture_default_str();
     verb->footer(
         "Rows of one subject are averaged per group first, so that observations are independent; --bootstrap keeps\n"
-        "them and draws whole subjects. q: p adjusted over all comparisons of one test (Benjamini & Hochberg).");
+        "them and draws whole subjects. q: p adjusted over all comparisons of one test (Benjamini & Hochberg).\n"
+        "Exit status: 0 done, 1 the archive is damaged, 2 no such archive, table or column, or a wrong condition.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 }
 

@@ -33,7 +33,7 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(Usage, HelpStatesTheExitStatus) {
     for (const char* verb : {"run", "status", "merge", "submit", "validate", "model", "phantom", "browse", "report",
-                             "validate-archive"})
+                             "stats", "export", "pack", "validate-archive"})
         EXPECT_NE(run_lumenline({verb, "--help"}, fresh_folder()).out.find("Exit status"), std::string::npos) << verb;
     EXPECT_NE(run_lumenline({"--help"}, fresh_folder()).out.find("Exit status"), std::string::npos);
 }
