@@ -130,9 +130,9 @@ std::vector<Result> results_of(const Study& study, const Shown& shown) {
 }
 
 std::string sentence(const Study& study) {
-    std::string text = fmt::format("{} of {} used", study.coverage.rows_used, counted(study.coverage.rows_in, "row"));
+    std::string text = fmt::format("{} of {} taken", study.coverage.rows_used, counted(study.coverage.rows_in, "row"));
     if (!study.coverage.left_out.empty()) text += "; left out: " + study.coverage.reasons();
-    return text + "; observations are " + study.unit;
+    return text + "; every line says how many of them it used; observations are " + study.unit;
 }
 
 void print_text(const Study& study, const std::vector<Result>& results, std::ostream& out) {
