@@ -82,4 +82,7 @@ CohortConfig parse_cohort(const std::string& text, const std::filesystem::path& 
 /// folder it gives the same tasks, run and archive settings.
 std::string resolved_text(const CohortConfig& config);
 
+/// The cohort's name as a resolved text states it, which may be anybody's; "cohort" where it does not.
+std::string cohort_name(const std::string& resolved);
+
 }  // namespace lumenline

@@ -3,8 +3,10 @@
 
 #include <yaml-cpp/emitter.h>
 #include <yaml-cpp/emittermanip.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cassert>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -160,6 +162,20 @@ std::string resolved_text(const CohortConfig& config) {
     write(out, "precision", config.archive.options.float32_fields ? "float32" : "float64");
     out << YAML::EndMap << YAML::EndMap;
     return std::string(out.c_str()) + "\n";
+}
+
+// One line is read and not the text, which lists every model.
+std::string cohort_name(const std::string& resolved) {
+    std::istringstream text(resolved);
+    for (std::string line; std::getline(text, line);) {
+        if (!line.starts_with("cohort: ")) continue;
+        try {
+            return YAML::Load(line)["cohort"].as<std::string>();
+        } catch (const YAML::Exception&) {
+            break;
+        }
+    }
+    return "cohort";
 }
 
 }  // namespace lumenline

@@ -75,7 +75,8 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     using What = Request::What;
     const auto request = std::make_shared<Request>();
     CLI::App* verb = app.add_subcommand("browse", "Print what an archive holds");
-    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, or one model file")->required();
+    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, a packed archive, or one model file")
+        ->required();
     verb->require_subcommand(0, 1);
     verb->footer(
         "Exit status: 0 done, 1 the archive is damaged or the output cannot be written, 2 no such archive, model, "
@@ -96,8 +97,10 @@ void add_browse(CLI::App& app, std::function<int()>& action) {
     CLI::App* list = add_verb("list", "table of the models (default)", What::kList);
     list->add_option("--sort", request->list.sort, "column of the table of models; models without a value come last");
     list->add_flag("--desc", request->list.descending, "largest first")->needs("--sort");
-    list->add_option("--where", request->list.where,
-                     "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold");
+    list->add_option(
+        "--where", request->list.where,
+        "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold; 'COLUMN =' is what has no value, "
+        "'COLUMN !=' the rest");
     CLI::Option* json = list->add_flag("--json", request->list.json, "every column, as a list of objects");
     list->add_flag("--csv", request->list.csv, "every column, as comma-separated values")->excludes(json);
     add("show", "attributes, endpoints, lines, radius along each branch, characterization and diagnostics of one model",

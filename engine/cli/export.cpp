@@ -38,6 +38,10 @@ std::size_t export_models(const Request& request) {
 }
 
 int run(const Request& request) {
+    if (request.format != "vtp" && !request.models.empty()) {
+        fmt::print(stderr, "lumenline: --model goes with --to vtp only: tables are of all models\n");
+        return kUsage;
+    }
     std::filesystem::create_directories(request.directory);
     const std::size_t files = request.format == "vtp"
                                   ? export_models(request)
@@ -45,7 +49,7 @@ int run(const Request& request) {
                                                   request.format == "csv" ? TableFormat::kCsv : TableFormat::kTsv)
                                         .size();
     fmt::print("{} written to {}\n", counted(files, "file"), request.directory);
-    return kDone;
+    return files > 0 ? kDone : kModelFailed;
 }
 
 }  // namespace
@@ -62,6 +66,9 @@ void add_export(CLI::App& app, std::function<int()>& action) {
         ->check(CLI::IsMember({"vtp", "csv", "tsv"}));
     verb->add_option("-o,--output", request->directory, "directory, made where it is missing")->required();
     verb->add_option("--model", request->models, "of these models only; may be repeated (vtp)");
+    verb->footer(
+        "Exit status: 0 written, 1 the archive is damaged, a file cannot be written or there was nothing to write,\n"
+        "2 usage error, no such archive or model.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 }
 

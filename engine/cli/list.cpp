@@ -20,17 +20,14 @@ namespace {
 
 constexpr const char* kTableOfModels = "models";
 
-/// Stable, with NaN and empty text last in either direction.
+/// Stable, with models without a value last in either direction.
 void sort_rows(const DataColumn& column, bool descending, std::vector<std::size_t>& rows) {
-    const auto is_missing = [&](std::size_t row) {
-        return column.is_number() ? std::isnan(column.numbers()[row]) : column.texts()[row].empty();
-    };
     const auto less = [&](std::size_t a, std::size_t b) {
         return column.is_number() ? column.numbers()[a] < column.numbers()[b]
                                   : natural_less(column.texts()[a], column.texts()[b]);
     };
     const auto values_end =
-        std::stable_partition(rows.begin(), rows.end(), [&](std::size_t row) { return !is_missing(row); });
+        std::stable_partition(rows.begin(), rows.end(), [&](std::size_t row) { return !is_missing(column, row); });
     std::stable_sort(rows.begin(), values_end,
                      [&](std::size_t a, std::size_t b) { return descending ? less(b, a) : less(a, b); });
 }

@@ -11,7 +11,7 @@ namespace lumenline {
 struct ListOptions {
     std::string sort;                ///< column; empty = order of the configuration
     bool descending = false;         ///< largest first
-    std::vector<std::string> where;  ///< "COLUMN OP VALUE", as in StudyOptions
+    std::vector<std::string> where;  ///< conditions, see `rows_where`
     bool json = false, csv = false;  ///< every column; else a table for people
 };
 

@@ -33,6 +33,9 @@ void add_pack(CLI::App& app, std::function<int()>& action) {
     CLI::App* verb = app.add_subcommand("pack", "Copy an archive into one file, for viewers that follow no links");
     verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5")->required();
     verb->add_option("-o,--output", request->file, "file to write, as one.h5")->required();
+    verb->footer(
+        "Exit status: 0 all models are packed, 1 some had no file, the archive is damaged or cannot be packed,\n"
+        "2 no such archive.");
     verb->callback([request, &action] { action = [request] { return run(request->archive, request->file); }; });
 }
 

@@ -173,7 +173,9 @@ void add_tree(CLI::App& phantom, std::function<int()>& action) {
     verb->add_option("--length", o.length, "Of a branch, in its own radii")->capture_default_str();
     verb->add_option("--points-around", o.points_around, "Edges around a tube, on the leaves as on the root")
         ->capture_default_str();
-    verb->add_option("--seed", o.seed, "Of directions and lengths")->capture_default_str();
+    verb->add_option("--seed", o.seed, "Of directions and lengths")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     verb->add_flag("--capped", o.caps, "Close root and leaves with flat caps");
     verb->add_option("--scale", o.scale, "Factor for all lengths")->capture_default_str();
     verb->add_option("--offset", arguments->offset, "Shift X,Y,Z after scaling");
@@ -213,7 +215,7 @@ void add_mesh_options(CLI::App& verb, PhantomArguments& arguments) {
     verb.add_option("--jitter", o.jitter, "Largest shift of vertices within the wall, in edges")->capture_default_str();
     verb.add_option("--noise", o.noise, "Standard deviation of vertices along the normal, in edges")
         ->capture_default_str();
-    verb.add_option("--seed", o.seed, "Of jitter and noise")->capture_default_str();
+    verb.add_option("--seed", o.seed, "Of jitter and noise")->check(CLI::NonNegativeNumber)->capture_default_str();
     verb.add_flag("--capped", o.caps, "Close the ends with flat caps");
     verb.add_flag("--rotate", o.rotate, "Turn into general position by a fixed rotation");
     verb.add_option("--scale", o.scale, "Factor for all lengths")->capture_default_str();

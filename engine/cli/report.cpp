@@ -45,7 +45,12 @@ int run(const Request& request) {
     if (!request.ratings_template.empty())
         write_file(request.ratings_template, [&](std::ostream& out) { out << report.ratings; });
     fmt::print("{} in {}\n", counted(report.models.size(), "model"), request.output);
-    return kDone;
+    if (report.unread == 0) return kDone;
+    fmt::print(stderr,
+               "lumenline: the files of {} could not be read, and the page says why in the place of {}: run the cohort "
+               "again\n",
+               counted(report.unread, "model"), report.unread == 1 ? "its picture" : "their pictures");
+    return kModelFailed;
 }
 
 }  // namespace
@@ -68,7 +73,8 @@ void add_report(CLI::App& app, std::function<int()>& action) {
         ->capture_default_str();
     verb->footer(
         "The page needs nothing else: no scripts, nothing from outside. About 5 kB a model.\n"
-        "Exit status: 0 written, 1 the archive is damaged or the page cannot be written, 2 no such archive or column.");
+        "Exit status: 0 written, 1 the archive or some models are damaged or the page cannot be written,\n"
+        "2 no such archive, column or table of ratings. Of damaged models the page says what is wrong.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "config/cohort.h"
 #include "engine/cli/ratings.h"
 #include "engine/cli/report_methods.h"
 #include "engine/cli/table.h"
@@ -25,18 +26,6 @@ constexpr double kOutlierLimit = 3.5;    ///< Iglewicz & Hoaglin 1993
 constexpr double kConsistent = 1.4826;   ///< MAD to standard deviation of a normal distribution
 constexpr std::size_t kMostGroups = 12;  ///< more than these are one group, "others"
 constexpr const char* kDiffers = "differs between models";
-
-/// The cohort's name, from its configuration as resolved: `cohort: "name"`.
-std::string cohort_name(const ArchiveFile& index) {
-    std::istringstream text(index.strings(names::kConfigResolved.path).at(0));
-    for (std::string line; std::getline(text, line);)
-        if (line.starts_with("cohort: ")) {
-            std::string name = line.substr(8);
-            if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-            return name;
-        }
-    return "cohort";
-}
 
 /// What the records of the models say of how they were made.
 class Provenance {
@@ -84,7 +73,8 @@ private:
     std::map<std::pair<std::string, std::string>, std::size_t> findings_;
 };
 
-void look_at_model(const std::filesystem::path& archive, std::size_t size, const std::string& unit, ReportModel& model,
+/// @returns whether its record could be read
+bool look_at_model(const std::filesystem::path& archive, std::size_t size, const std::string& unit, ReportModel& model,
                    Provenance& provenance) {
     try {
         const ArchiveFile file = open_model(archive, model.id);
@@ -93,8 +83,10 @@ void look_at_model(const std::filesystem::path& archive, std::size_t size, const
         if (!drawn.picture.pixels.empty()) model.png = png_of(drawn.picture);
         if (drawn.largest > 0)
             model.caption = "0 to " + table_number(drawn.largest) + (unit == "unknown" ? "" : " " + unit);
+        return true;
     } catch (const ArchiveError& error) {
         model.caption = error.what();
+        return false;
     }
 }
 
@@ -205,7 +197,8 @@ Report gather_report(const std::filesystem::path& archive, const ReportOptions& 
     Coverage coverage;
     const Selection chosen = select(table, options.by, coverage);
     Report report;
-    report.title = cohort_name(ArchiveFile(index_or_file(archive))) + ": report";
+    report.title =
+        cohort_name(ArchiveFile(index_or_file(archive)).strings(names::kConfigResolved.path).at(0)) + ": report";
     report.by = options.by;
     report.outlier_limit = kOutlierLimit;
     report.picture_size = options.picture_size;
@@ -221,7 +214,9 @@ Report gather_report(const std::filesystem::path& archive, const ReportOptions& 
     Provenance provenance;
     for (std::size_t m = 0; m < report.models.size(); ++m) {
         progress(m, report.models.size());
-        look_at_model(archive, options.picture_size, text_at(table, "length_unit", m), report.models[m], provenance);
+        if (!look_at_model(archive, options.picture_size, text_at(table, "length_unit", m), report.models[m],
+                           provenance))
+            ++report.unread;
     }
     MethodsFacts facts = provenance.facts();
     facts.models = table.rows;
@@ -237,6 +232,7 @@ Report gather_report(const std::filesystem::path& archive, const ReportOptions& 
     for (const char* status : {"ok", "warning", "failed"})
         report.counts.emplace_back(
             status, std::to_string(count_if(report.models, [&](const auto& m) { return m.status == status; })));
+    if (report.unread > 0) report.counts.emplace_back("could not be read", std::to_string(report.unread));
     if (!options.ratings.empty()) report.counts.emplace_back("rated bad", std::to_string(facts.rated_bad));
     report.counts.emplace_back("in the measures", std::to_string(coverage.rows_used));
     report.ratings = ratings_table(table);

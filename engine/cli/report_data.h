@@ -17,7 +17,8 @@ struct ReportOptions {
     std::size_t picture_size = 160;     ///< of a side in pixels
 };
 
-/// Gathers a report from an archive. A model whose file cannot be read has a sentence in the place of its picture.
+/// Gathers a report from an archive. A model whose file cannot be read has a sentence in the place of its picture, and
+/// is counted.
 /// @param progress  called with the models done and all of them
 /// @throws ArchiveError, UnknownName where the index cannot be used; StudyError for a column that there is not;
 ///         ConfigError for the table of ratings

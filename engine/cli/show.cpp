@@ -167,7 +167,7 @@ void show_branches(const ArchiveFile& file, std::ostream& out) {
 void show_character(const ArchiveFile& file, std::ostream& out) {
     if (!file.has(names::kStatisticsGeodesic.path)) return;
     const auto sites = numbers(file, names::kWallSites, 1), unreached = numbers(file, names::kUnreachedSites, 1);
-    out << "\ncharacterization of " << table_number(sites[0] - unreached[0]) << " of " << table_number(sites[0])
+    out << "\ncharacterization of " << exact_text(sites[0] - unreached[0]) << " of " << exact_text(sites[0])
         << " sites of the wall\n";
     TextTable table = table_of({"quantity"}, {"mean", "sd", "median", "p95"});
     for (const auto& [name, field] : {std::pair("geodesic distance D_g", &names::kStatisticsGeodesic),

@@ -27,6 +27,9 @@ namespace lumenline {
 
 namespace {
 
+constexpr int kMostBins = 10'000;
+constexpr int kMostDraws = 1'000'000;  ///< beyond, intervals no longer change and draws fill the memory
+
 struct Request {
     std::string archive, table = "models", format = "text", ratings;
     StudyOptions study;
@@ -127,9 +130,9 @@ std::vector<Result> results_of(const Study& study, const Shown& shown) {
 }
 
 std::string sentence(const Study& study) {
-    std::string text = fmt::format("{} of {} used", study.coverage.rows_used, counted(study.coverage.rows_in, "row"));
+    std::string text = fmt::format("{} of {} taken", study.coverage.rows_used, counted(study.coverage.rows_in, "row"));
     if (!study.coverage.left_out.empty()) text += "; left out: " + study.coverage.reasons();
-    return text + "; observations are " + study.unit;
+    return text + "; every line says how many of them it used; observations are " + study.unit;
 }
 
 void print_text(const Study& study, const std::vector<Result>& results, std::ostream& out) {
@@ -206,26 +209,30 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
     const auto request = std::make_shared<Request>();
     StudyOptions& study = request->study;
     CLI::App* verb = app.add_subcommand("stats", "Statistics of an archive's tables by group");
-    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5")->required();
+    verb->add_option("ARCHIVE", request->archive, "directory with a cohort.h5, or a packed archive")->required();
     verb->add_option("--by", study.by, "column whose groups are compared; without it all rows are one group");
     verb->add_option("--table", request->table, "table of the index: models, branches, ...")->capture_default_str();
     verb->add_option("--measure", study.measures, "columns, with commas between; default: all measures of the table")
         ->delimiter(',');
-    verb->add_option("--where", study.where, "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold");
-    verb->add_option("--subject", study.subject, "column of subjects, whose rows are not independent")
-        ->capture_default_str();
+    verb->add_option(
+        "--where", study.where,
+        "'COLUMN OP VALUE', OP one of = != < <= > >=; may be repeated: all hold; 'COLUMN =' is what has no value, "
+        "'COLUMN !=' the rest");
+    verb->add_option("--subject", study.subject,
+                     "column of subjects, whose rows are not independent; default: subject, where the table has it");
     verb->add_option("--label", study.label, "column whose values are studied apart, as branch_label");
     verb->add_option("--bin-by", study.bin_by,
                      "column of numbers from 0 to 1 to make a profile over, as abscissa_relative of sections");
-    verb->add_option("--bins", study.bins, "of the profile")->capture_default_str();
+    verb->add_option("--bins", study.bins, "of the profile")->check(CLI::Range(1, kMostBins))->capture_default_str();
     verb->add_option("--normalize-by", study.normalize_by, "column that measures are divided by, as body size");
     verb->add_option("--adjust", study.adjust, "covariates of a linear model beside the groups")->delimiter(',');
     verb->add_option("--correlate", study.correlate, "columns to correlate the measures with")->delimiter(',');
     verb->add_option("--retest", study.retest,
                      "column of occasions, as 'session': agreement and change between the first two");
     verb->add_option("--bootstrap", study.bootstrap,
-                     "draw whole subjects this many times for the intervals, instead of averaging each one's rows");
-    verb->add_option("--seed", study.seed, "of the draws")->capture_default_str();
+                     "draw whole subjects this many times for the intervals, instead of averaging each one's rows")
+        ->check(CLI::Range(0, kMostDraws));
+    verb->add_option("--seed", study.seed, "of the draws")->check(CLI::NonNegativeNumber)->capture_default_str();
     verb->add_option("--confidence", study.confidence, "of the intervals")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
@@ -237,7 +244,8 @@ void add_stats(CLI::App& app, std::function<int()>& action) {
         ->capture_default_str();
     verb->footer(
         "Rows of one subject are averaged per group first, so that observations are independent; --bootstrap keeps\n"
-        "them and draws whole subjects. q: p adjusted over all comparisons of one test (Benjamini & Hochberg).");
+        "them and draws whole subjects. q: p adjusted over all comparisons of one test (Benjamini & Hochberg).\n"
+        "Exit status: 0 done, 1 the archive is damaged, 2 no such archive, table or column, or a wrong condition.");
     verb->callback([request, &action] { action = [request] { return run(*request); }; });
 }
 

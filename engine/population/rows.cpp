@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "engine/core/text.h"
 
@@ -17,6 +17,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 struct Condition {
     const DataColumn* column;
     std::string op, value;
+    std::optional<double> number;  ///< of the value, where numbers are compared
 
     template <class T>
     [[nodiscard]] bool compare(const T& a, const T& b) const {
@@ -27,16 +28,35 @@ struct Condition {
         return op == ">" ? a > b : a >= b;
     }
     [[nodiscard]] bool holds(std::size_t row) const {
-        if (!column->is_number()) return compare(column->texts()[row], value);
-        double number = 0;
-        std::from_chars(value.data(), value.data() + value.size(), number);
-        return compare(column->numbers()[row], number);
+        if (is_missing(value)) return is_missing(*column, row) == (op == "=");
+        if (is_missing(*column, row)) return false;
+        if (!number) return compare(column->texts()[row], value);
+        return compare(column->is_number() ? column->numbers()[row] : *number_of(column->texts()[row]), *number);
     }
 };
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(' ');
     return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// The number that a condition compares with; none where it compares text, or asks what is missing.
+/// @param text  the condition as it was written
+std::optional<double> number_in(const Condition& condition, const std::string& text) {
+    const DataColumn& column = *condition.column;
+    const bool orders = condition.op.front() == '<' || condition.op.front() == '>';
+    const bool asks_missing = is_missing(condition.value) && !orders;
+    if (asks_missing || (!column.is_number() && !orders)) return std::nullopt;
+    if (!column.is_number())
+        for (const std::string& cell : column.texts())
+            if (!is_missing(cell) && !number_of(cell))
+                throw StudyError("the condition '" + text + "' orders the texts of '" + column.name + "', and '" +
+                                 cell + "' is no number: compare them by = or !=");
+    const std::optional<double> number = number_of(condition.value);
+    if (!number || std::isnan(*number))
+        throw StudyError("the condition '" + text + "' compares the numbers of '" + column.name + "' with '" +
+                         condition.value + "', which is no number, or out of range");
+    return number;
 }
 
 Condition parse(const DataTable& table, const std::string& text) {
@@ -48,12 +68,8 @@ Condition parse(const DataTable& table, const std::string& text) {
         throw StudyError("the condition '" + text + "' is none: write COLUMN OP VALUE, OP one of = != < <= > >=");
     const std::string_view all = text;
     Condition condition{&column_of(table, trimmed(all.substr(0, at))), op,
-                        std::string(end == text.npos ? std::string_view{} : trimmed(all.substr(end)))};
-    double number = 0;
-    const char* const last = condition.value.data() + condition.value.size();
-    if (condition.column->is_number() && std::from_chars(condition.value.data(), last, number).ptr != last)
-        throw StudyError("the condition '" + text + "' compares the numbers of '" + condition.column->name +
-                         "' with text");
+                        std::string(end == text.npos ? std::string_view{} : trimmed(all.substr(end))), std::nullopt};
+    condition.number = number_in(condition, text);
     return condition;
 }
 
@@ -86,9 +102,13 @@ void leave_out(Coverage& coverage, const std::string& reason, std::size_t rows) 
     coverage.left_out.emplace_back(reason, rows);
 }
 
+bool is_missing(const DataColumn& column, std::size_t row) {
+    return column.is_number() ? std::isnan(column.numbers()[row]) : is_missing(column.texts()[row]);
+}
+
 std::string cell_text(const DataColumn& column, std::size_t row) {
-    if (!column.is_number()) return column.texts()[row];
-    return std::isnan(column.numbers()[row]) ? "" : exact_text(column.numbers()[row]);
+    if (is_missing(column, row)) return "";
+    return column.is_number() ? exact_text(column.numbers()[row]) : column.texts()[row];
 }
 
 const DataColumn& column_of(const DataTable& table, std::string_view name) {

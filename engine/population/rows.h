@@ -10,7 +10,10 @@
 
 namespace lumenline {
 
-/// Text of a table's cell: numbers as they are written elsewhere, NaN as empty.
+/// Has a table's cell no value: NaN, no text, or "n/a"?
+bool is_missing(const DataColumn& column, std::size_t row);
+
+/// Text of a table's cell: numbers as they are written elsewhere, what is missing as empty.
 std::string cell_text(const DataColumn& column, std::size_t row);
 
 /// The column of that name. @throws StudyError with the nearest names
@@ -22,7 +25,11 @@ const DataColumn& numbers_of(const DataTable& table, std::string_view name);
 /// @param coverage  counts the rest, by reason
 std::vector<std::size_t> select_rows(const DataTable& table, const StudyOptions& options, Coverage& coverage);
 
-/// Rows that meet all conditions ("COLUMN OP VALUE"), whatever became of their models. @throws StudyError
+/// Rows that meet all conditions, whatever became of their models.
+///
+/// A condition is "COLUMN OP VALUE", OP one of = != < <= > >=. What is missing meets none but "COLUMN =", and all else
+/// meets "COLUMN !=". Text is compared as it stands, but ordered as the numbers that it says.
+/// @throws StudyError for what is no condition, and where there is no number to compare with
 std::vector<std::size_t> rows_where(const DataTable& table, const std::vector<std::string>& conditions);
 
 /// The columns that conditions name. @throws StudyError

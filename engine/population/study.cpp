@@ -55,7 +55,7 @@ public:
         by_ = optional_column(options.by);
         label_ = optional_column(options.label);
         retest_ = optional_column(options.retest);
-        subject_ = table.find(options.subject);
+        subject_ = options.subject.empty() ? table.find("subject") : &column_of(table, options.subject);
         id_ = table.find("id");
         if (!options.bin_by.empty()) bin_by_ = &numbers_of(table, options.bin_by);
         if (!options.normalize_by.empty()) normalize_by_ = &numbers_of(table, options.normalize_by);
@@ -73,7 +73,9 @@ public:
         for (const std::size_t row : rows_) {
             const std::optional<std::size_t> bin = bin_of(row);
             if (!bin) {
-                leave_out(study_.coverage, "without '" + options_.bin_by + "'");
+                leave_out(study_.coverage, is_missing(*bin_by_, row)
+                                               ? "without '" + options_.bin_by + "'"
+                                               : "with '" + options_.bin_by + "' outside of 0 to 1");
                 --study_.coverage.rows_used;
                 continue;
             }

@@ -19,8 +19,8 @@ namespace lumenline {
 struct StudyOptions {
     std::string by;                     ///< groups to compare; empty = all rows are one
     std::vector<std::string> measures;  ///< empty = all columns of measures
-    std::vector<std::string> where;     ///< "COLUMN OP VALUE", OP one of = != < <= > >=; all must hold
-    std::string subject = "subject";    ///< rows of one subject are not independent
+    std::vector<std::string> where;     ///< conditions, see `rows_where`; all must hold
+    std::string subject;                ///< rows of one are not independent; empty = `subject`, if there is one
     std::string label;                  ///< rows of different labels are studied apart, as branches are
     std::string bin_by;                 ///< a column of numbers from 0 to 1, cut into `bins`, studied apart: a profile
     std::size_t bins = 20;

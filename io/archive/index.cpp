@@ -6,7 +6,6 @@
 #include "io/archive/index.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,6 +13,7 @@
 #include <set>
 #include <system_error>
 
+#include "engine/core/data_table.h"
 #include "engine/core/size_note.h"
 #include "engine/core/version.h"
 #include "io/archive/file_stamp.h"
@@ -126,15 +126,6 @@ void write_models(Writer& writer, Models models) {
                 [](const ModelSummary& m) { return m.failure ? error_name(m.failure->code) : ""; });
 }
 
-bool is_missing(std::string_view value) { return value.empty() || value == "n/a"; }
-
-std::optional<double> parsed(std::string_view value) {
-    double number = kNaN;
-    const char* const end = value.data() + value.size();
-    const auto result = std::from_chars(value.data(), end, number);
-    return result.ec == std::errc() && result.ptr == end ? std::optional(number) : std::nullopt;
-}
-
 /// Name of a covariate's dataset in the table of models, unlike all in `taken`, to which it is added.
 std::string dataset_name(const std::string& column, std::set<std::string>& taken) {
     std::string name = valid_text(column);
@@ -146,9 +137,9 @@ std::string dataset_name(const std::string& column, std::set<std::string>& taken
     return candidate;
 }
 
-/// Names of our own columns.
+/// Names of our own columns, and of those that a printed list of the models has beside them.
 std::set<std::string> own_columns() {
-    std::set<std::string> own;
+    std::set<std::string> own{"lines", "seconds"};
     const std::string prefix = std::string(names::kModelTable) + "/";
     for (const names::Field& field :
          {names::kId,           names::kStatus,         names::kSubject,     names::kSession,
@@ -181,7 +172,7 @@ void write_covariates(Writer& writer, Models models) {
         const std::vector<std::string>& values = columns.at(name);
         std::vector<double> numbers;
         for (const std::string& value : values) {
-            const std::optional<double> number = is_missing(value) ? kNaN : parsed(value);
+            const std::optional<double> number = is_missing(value) ? kNaN : number_of(value);
             if (!number) break;
             numbers.push_back(*number);
         }

@@ -61,6 +61,7 @@ struct Report {
     std::vector<ReportOutlier> outliers;
     std::vector<ReportFinding> findings;
     std::size_t picture_size = 0;  ///< of the pictures' sides in pixels
+    std::size_t unread = 0;        ///< models whose records are damaged or missing
     std::string ratings;           ///< the table to fill in, as a file
 };
 

@@ -31,7 +31,6 @@ const Style& style_of(TableFormat format) {
 }
 
 std::string quoted(const std::string& text, const Style& style) {
-    if (text.empty()) return style.missing;
     if (text.find_first_of(style.to_quote) == text.npos) return text;
     std::string result = "\"";
     for (const char c : text) result.append(c == '"' ? 2 : 1, c);
@@ -39,6 +38,8 @@ std::string quoted(const std::string& text, const Style& style) {
 }
 
 }  // namespace
+
+std::string quoted_cell(const std::string& text, TableFormat format) { return quoted(text, style_of(format)); }
 
 void write_rows(const DataTable& table, std::span<const std::size_t> rows, TableFormat format, std::ostream& out) {
     const Style style = style_of(format);
@@ -50,7 +51,7 @@ void write_rows(const DataTable& table, std::span<const std::size_t> rows, Table
             const DataColumn& column = table.columns[c];
             out << (c > 0 ? style.separator : "");
             if (!column.is_number())
-                out << quoted(column.texts()[row], style);
+                out << (is_missing(column.texts()[row]) ? style.missing : quoted(column.texts()[row], style));
             else if (std::isnan(column.numbers()[row]))
                 out << style.missing;
             else

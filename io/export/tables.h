@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/core/data_table.h"
@@ -13,6 +14,9 @@ namespace lumenline {
 
 /// RFC 4180 (.csv: commas, missing values empty), or as BIDS has it (.tsv: tabs, missing values n/a).
 enum class TableFormat { kCsv, kTsv };
+
+/// Text as a cell of a file, in quotes where it needs them to be read back.
+std::string quoted_cell(const std::string& text, TableFormat format);
 
 /// Writes rows of a table: a heading, quotes doubled, numbers as decimals that read back as the same.
 void write_rows(const DataTable& table, std::span<const std::size_t> rows, TableFormat format, std::ostream& out);

@@ -80,6 +80,7 @@ TEST(Browse, ShowTellsWhoWhatAndWhy) {
                              "0.3333", "(0.33333, 1, 2)"})
         EXPECT_TRUE(contains(good.out, part)) << part << "\n" << good.out;
     EXPECT_TRUE(contains(good.out, "    1       0       3       4   1.000       1.164       1.593\n")) << good.out;
+    EXPECT_TRUE(contains(good.out, "characterization of 2 of 3 sites of the wall\n")) << good.out;
     const Printed bad = run({"browse", archive, "show", "b"});
     EXPECT_TRUE(contains(bad.out, "failed: a front needs at least one vertex to start from\n")) << bad.out;
     EXPECT_TRUE(contains(bad.out, "no_seed"));
@@ -130,6 +131,28 @@ TEST(Browse, ListSortsByAnyColumnWithMissingValuesLast) {
     EXPECT_EQ(listed(archive, {"--sort", "seconds"}), "m2 m10 m1 ") << "equal ones keep their order";
     const Printed printed = run({"browse", archive, "list", "--sort", "age"});
     EXPECT_TRUE(contains(printed.out, "seconds    age\n")) << printed.out;
+}
+
+TEST(Browse, ListTakesNotAvailableForMissingText) {
+    std::vector<ModelRecord> records{sample_record("a"), sample_record("b"), sample_record("c"), sample_record("d")};
+    const char* const stages[] = {"n/a", "II", "", "I"};
+    for (std::size_t i = 0; i < records.size(); ++i) records[i].identity.covariates = {{"stage", stages[i]}};
+    const std::string archive = archive_of(records, "browse_missing_text");
+    EXPECT_EQ(listed(archive, {"--sort", "stage"}), "d b a c ");
+    EXPECT_EQ(listed(archive, {"--sort", "stage", "--desc"}), "b d a c ");
+    const Printed csv = run({"browse", archive, "list", "--csv"});
+    EXPECT_FALSE(contains(csv.out, "n/a")) << csv.out;
+}
+
+TEST(Browse, ListKeepsCovariatesApartFromItsOwnColumns) {
+    ModelRecord record = sample_record("a");
+    record.identity.covariates = {{"seconds", "7"}, {"lines", "9"}};
+    const std::string archive = archive_of({record}, "browse_own_columns");
+    const auto models = nlohmann::json::parse(run({"browse", archive, "list", "--json"}).out);
+    EXPECT_EQ(models[0].at("seconds"), 2.8);
+    EXPECT_EQ(models[0].at("covariate_seconds"), 7);
+    EXPECT_EQ(models[0].at("covariate_lines"), 9);
+    EXPECT_EQ(listed(archive, {"--where", "seconds < 3", "--where", "lines = 2"}), "a ") << "as they are printed";
 }
 
 TEST(Browse, ListSelectsByTheWordsOfStats) {

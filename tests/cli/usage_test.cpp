@@ -33,7 +33,7 @@ TEST(Usage, HelpOfEveryVerbGoesToStandardOutput) {
 
 TEST(Usage, HelpStatesTheExitStatus) {
     for (const char* verb : {"run", "status", "merge", "submit", "validate", "model", "phantom", "browse", "report",
-                             "validate-archive"})
+                             "stats", "export", "pack", "validate-archive"})
         EXPECT_NE(run_lumenline({verb, "--help"}, fresh_folder()).out.find("Exit status"), std::string::npos) << verb;
     EXPECT_NE(run_lumenline({"--help"}, fresh_folder()).out.find("Exit status"), std::string::npos);
 }
@@ -80,6 +80,11 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"browse", "archive", "serve", "--port", "65536"}, "--port"},
         {{"browse", "archive", "page"}, "--output"},
         {{"browse", "archive", "list", "--json", "--csv"}, "--json"},
+        {{"stats", "archive", "--bootstrap", "-5"}, "--bootstrap"},
+        {{"stats", "archive", "--bootstrap", "3000000000"}, "--bootstrap"},
+        {{"stats", "archive", "--bins", "-1"}, "--bins"},
+        {{"stats", "archive", "--bins", "0"}, "--bins"},
+        {{"stats", "archive", "--seed", "-1"}, "--seed"},
         {{"validate-archive"}, "ARCHIVE"},
         {{"report", "archive"}, "--output"},
         {{"report", "archive", "-o", "r.html", "--picture-size", "3"}, "--picture-size"},
@@ -89,6 +94,8 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         {{"phantom", "torus", "-o", "a.ply", "--voxel", "2"}, "voxel size"},
         {{"phantom", "torus", "-o", "a.ply", "--smoothing", "3"}, "--smoothing"},
         {{"phantom", "torus", "-o", "a.ply", "--voxel", "0.3", "--jitter", "0.2"}, "--jitter"},
+        {{"phantom", "torus", "-o", "a.ply", "--seed", "-1"}, "--seed"},
+        {{"phantom", "tree", "-o", "a.ply", "--seed", "-1"}, "--seed"},
         {{"phantom", "tree", "--leaves", "2"}, "--output"},
         {{"phantom", "tree", "-o", "a.ply", "--leaves", "6"}, "power of two"},
         {{"phantom", "tree", "-o", "a.ply", "--offset=1,2"}, "--offset"},

@@ -309,6 +309,13 @@ archive: {directory: ../out, precision: float64}
     const CohortConfig again = folder.load(text);
     expect_same(again, config);
     EXPECT_EQ(resolved_text(again), text);
+    EXPECT_EQ(cohort_name(text), "a # b: \"c\" ~");
+}
+
+TEST(ResolvedText, NameOfWhatIsNoneIsAWord) {
+    for (const char* text : {"", "models:\n", "cohort: [a, b]\n", "cohort: \"a\n"})
+        EXPECT_EQ(cohort_name(text), "cohort");
+    EXPECT_EQ(cohort_name("cohort: " + std::string(100'000, '[')), "cohort");
 }
 
 TEST(ResolvedText, ReplacesTableAndGlobByTheirModels) {

@@ -40,6 +40,17 @@ std::size_t count(const std::string& text, const std::string& part) {
     return found;
 }
 
+/// An archive of a model that fails, with the columns that a table of models has.
+fs::path cohort_of(const std::string& models, const std::string& name = "a") {
+    const fs::path folder = cli_test::fresh_folder();
+    write_text(folder / "broken.ply", "ply\n");
+    write_text(folder / "models.tsv", models);
+    write_text(folder / "cohort.yaml",
+               "cohort: " + name + "\nmodels: {table: models.tsv}\narchive: {directory: results}\n");
+    EXPECT_EQ(cli_test::run_lumenline({"run", "cohort.yaml"}, folder).status, 1);
+    return folder / "results";
+}
+
 TEST(Report, SaysWhatWasDoneAndWhatCameOfIt) {
     const fs::path archive = sample_cohort();
     const std::string page = page_of(archive);
@@ -87,6 +98,55 @@ TEST(Report, RatingsComeBackAndLeaveOutWhatIsBad) {
         run_command({"report", archive.string(), "-o", (archive / "r.html").string(), "--ratings", ratings.string()})
             .status,
         2);
+}
+
+TEST(Report, RatingsStandInThePlaceOfCovariatesAndAreReadBack) {
+    const fs::path archive =
+        cohort_of("id\tsurface\trating\trating_note\nbroken\tbroken.ply\tfine\t\"\"\"hello\"\" world\"\n");
+    const fs::path ratings = archive.parent_path() / "ratings.tsv";
+    page_of(archive, {"--by", "id", "--template", ratings.string()});
+    EXPECT_EQ(read_text(ratings), "model\trating\tnote\nbroken\tfine\t\"\"\"hello\"\" world\"\n");
+    EXPECT_TRUE(has(page_of(archive, {"--by", "id", "--ratings", ratings.string()}), "&quot;hello&quot; world"));
+    write_text(ratings, "model\trating\nbroken\tdoubtful\n");
+    const std::string page = page_of(archive, {"--by", "id", "--ratings", ratings.string()});
+    EXPECT_TRUE(has(page, "rated doubtful"));
+    EXPECT_FALSE(has(page, "rated fine"));
+}
+
+TEST(Report, RatingsThatWouldBePassedOverAreSaid) {
+    const fs::path archive = sample_cohort(), ratings = archive.parent_path() / "ratings.tsv";
+    const auto rated = [&](const std::string& rows) {
+        write_text(ratings, "model\trating\n" + rows);
+        return run_command({"stats", archive.string(), "--ratings", ratings.string()});
+    };
+    for (const auto& [rows, sentence] : std::vector<std::pair<std::string, std::string>>{
+             {"forked\tBad\n", ":2: column 'rating' holds 'Bad': write 'bad'"},
+             {"forked\t\" bad\"\n", ":2: column 'rating' holds ' bad': write 'bad'"},
+             {"forked\tbad\nforked\tgood\n", ":3: model 'forked' has a rating in line 2 already"}}) {
+        const Outcome outcome = rated(rows);
+        EXPECT_EQ(outcome.status, 2) << rows;
+        EXPECT_TRUE(has(outcome.err, sentence)) << outcome.err;
+    }
+    const Outcome unknown = rated("forkd\tbad\nforked\tgood\nb\tbad\n");
+    EXPECT_EQ(unknown.status, 0) << unknown.err;
+    EXPECT_TRUE(has(unknown.err, "2 ratings in")) << unknown.err;
+    EXPECT_TRUE(has(unknown.err, "the first of 'forkd' in line 2\n")) << unknown.err;
+    EXPECT_EQ(count(unknown.err, "\n"), 1U) << unknown.err;
+}
+
+TEST(Report, CountsModelsWhoseFilesCannotBeRead) {
+    const fs::path archive = sample_cohort(), file = archive.parent_path() / "report.html";
+    write_text(whole_model(archive), "no model");
+    const Outcome outcome = run_command({"report", archive.string(), "-o", file.string()});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.err, "the files of 1 model could not be read")) << outcome.err;
+    EXPECT_EQ(count(outcome.err, "\n"), 1U) << outcome.err;
+    EXPECT_TRUE(has(read_text(file), "<b>1</b><span>could not be read</span>"));
+}
+
+TEST(Report, TitleIsTheNameAsItWasGiven) {
+    const fs::path archive = cohort_of("id\tsurface\nbroken\tbroken.ply\n", "'the \"left\" \\ side'");
+    EXPECT_TRUE(has(page_of(archive, {"--by", "id"}), "<title>the &quot;left&quot; \\ side: report</title>"));
 }
 
 TEST(Report, TextOfTheArchiveStaysText) {

@@ -82,6 +82,14 @@ TEST(Export, WrongRequestsAreRefusedInOneSentence) {
         run_lumenline({"export", "results", "--to", "vtp", "-o", "vtp", "--model", "forkd"}, folder);
     EXPECT_EQ(unknown.status, 2);
     EXPECT_NE(unknown.err.find("nearest"), std::string::npos) << unknown.err;
+    const Finished some = run_lumenline({"export", "results", "--to", "csv", "-o", "csv", "--model", "forked"}, folder);
+    EXPECT_EQ(some.status, 2);
+    EXPECT_NE(some.err.find("--model goes with --to vtp only"), std::string::npos) << some.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "csv"));
+    const Finished nothing =
+        run_lumenline({"export", "results", "--to", "vtp", "-o", "vtp", "--model", "broken"}, folder);
+    EXPECT_EQ(nothing.status, 1) << "a model that failed has nothing to write";
+    EXPECT_EQ(cli_test::lines_of(nothing.err).size(), 1U) << nothing.err;
     EXPECT_EQ(run_lumenline({"export", "nowhere", "--to", "csv", "-o", "csv"}, folder).status, 2);
     EXPECT_EQ(run_lumenline({"export", "results", "--to", "stl", "-o", "x"}, folder).status, 2);
     const Finished blocked = run_lumenline({"export", "results", "--to", "csv", "-o", "cohort.yaml"}, folder);

@@ -130,6 +130,7 @@ TEST(Stats, TextAndTabSeparatedHoldTheSameTables) {
     const Finished text = run_lumenline({"stats", ".", "--by", "group", "--measure", "length"}, archive);
     EXPECT_EQ(text.status, 0);
     EXPECT_NE(text.out.find("\ncomparisons\n"), std::string::npos);
+    EXPECT_NE(text.out.find("60 of 60 rows taken; every line says how many of them it used"), std::string::npos);
     const Finished tsv =
         run_lumenline({"stats", ".", "--by", "group", "--measure", "length", "--format", "tsv"}, archive);
     EXPECT_NE(tsv.out.find("# groups\nmeasure\tgroup\tn\t"), std::string::npos) << tsv.out;

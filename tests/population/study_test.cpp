@@ -23,7 +23,7 @@ DataTable sample() {
     t.columns.push_back({"session", "1", "", false, Texts{"v2", "v10", "v2", "v2", "v2", "v10", "v2", "v2"}});
     t.columns.push_back({"age", "1", "covariate", false, Numbers{10, 10, 20, 30, 40, 50, kNaN, 70}});
     t.columns.push_back({"radius", "mm", "", true, Numbers{1, 3, 99, 4, 5, kNaN, 7, 8}});
-    t.columns.push_back({"place", "1", "", false, Numbers{0, 0.2, 0.5, 0.7, 1, 0.9, 0.4, 1.5}});
+    t.columns.push_back({"place", "1", "", false, Numbers{0, 0.2, 0.5, 0.7, 1, kNaN, 0.4, 1.5}});
     return t;
 }
 
@@ -47,6 +47,26 @@ TEST(Study, RowsOfASubjectAreAveragedAndFailuresLeftOut) {
     EXPECT_EQ(study.comparisons[0].welch.difference.value, -3);
 }
 
+TEST(Study, TextThatSaysNotAvailableIsNoGroupAndNoLevel) {
+    DataTable table = sample();
+    table.columns.push_back(
+        {"smoker", "1", "covariate", false, Texts{"yes", "yes", "n/a", "no", "n/a", "yes", "no", ""}});
+    StudyOptions options;
+    options.by = "smoker";
+    const Study by = study_table(table, options);
+    ASSERT_EQ(by.groups.size(), 2U);
+    EXPECT_EQ(by.groups[0].group, "no");
+    EXPECT_EQ(by.groups[1].group, "yes");
+    EXPECT_EQ(by.groups[0].coverage.reasons(), "1 failed, 2 without 'smoker', 1 without a value");
+    options = {};
+    options.adjust = {"smoker"};
+    const Study adjusted = study_table(table, options);
+    ASSERT_EQ(adjusted.regressions.size(), 1U);
+    ASSERT_EQ(adjusted.regressions[0].model.terms.size(), 2U) << "the intercept and one level beside the first";
+    EXPECT_EQ(adjusted.regressions[0].model.terms[1].name, "smoker=yes");
+    EXPECT_NE(adjusted.regressions[0].coverage.reasons().find("2 without a covariate"), std::string::npos);
+}
+
 TEST(Study, ModelsRatedBadAreLeftOut) {
     DataTable table = sample();
     table.columns.push_back({"rating", "1", "", false, Texts{"", "", "", "bad", "good", "", "", ""}});
@@ -61,6 +81,42 @@ TEST(Study, ConditionsMustAllHold) {
     const Study study = study_table(sample(), options);
     EXPECT_EQ(study.coverage.rows_used, 3U);
     EXPECT_EQ(study.coverage.reasons(), "4 outside of the conditions, 1 failed");
+}
+
+TEST(Conditions, WhatIsMissingMeetsNoneButThatItIs) {
+    DataTable table = sample();
+    table.columns.push_back({"smoker", "1", "", false, Texts{"yes", "no", "n/a", "", "yes", "no", "no", "no"}});
+    const auto rows = [&](const std::string& condition) { return rows_where(table, {condition}); };
+    using Rows = std::vector<std::size_t>;
+    EXPECT_EQ(rows("radius ="), (Rows{5}));
+    EXPECT_EQ(rows("radius!="), (Rows{0, 1, 2, 3, 4, 6, 7}));
+    EXPECT_EQ(rows("radius != 5"), (Rows{0, 1, 2, 3, 6, 7}));
+    EXPECT_EQ(rows("smoker="), (Rows{2, 3}));
+    EXPECT_EQ(rows("smoker = n/a"), (Rows{2, 3}));
+    EXPECT_EQ(rows("smoker !="), (Rows{0, 1, 4, 5, 6, 7}));
+    EXPECT_EQ(rows("smoker != no"), (Rows{0, 4}));
+    EXPECT_EQ(rows("radius < inf"), (Rows{0, 1, 2, 3, 4, 6, 7}));
+}
+
+TEST(Conditions, TextIsOrderedAsNumbersOrNotAtAll) {
+    DataTable table{"models", 4, {}};
+    table.columns.push_back({"visit", "1", "", false, Texts{"9", "10", "", "100"}});
+    table.columns.push_back({"side", "1", "", false, Texts{"left", "right", "", "7"}});
+    EXPECT_EQ(rows_where(table, {"visit >= 10"}), (std::vector<std::size_t>{1, 3}));
+    EXPECT_THROW(rows_where(table, {"visit < x"}), StudyError);
+    EXPECT_THROW(rows_where(table, {"side < 8"}), StudyError);
+}
+
+TEST(Conditions, NumbersAreComparedWithNumbersOnly) {
+    for (const char* condition :
+         {"age < 1e999", "age = -1e999", "age <", "age >= n/a", "age = x", "age = 3x", "age = nan"})
+        try {
+            rows_where(sample(), {condition});
+            ADD_FAILURE() << condition;
+        } catch (const StudyError& error) {
+            EXPECT_NE(std::string(error.what()).find("which is no number, or out of range"), std::string::npos)
+                << error.what();
+        }
 }
 
 TEST(Study, BootstrapKeepsRowsAndDrawsSubjects) {
@@ -82,7 +138,7 @@ TEST(Study, ProfilesCountRowsOutsideOfTheBins) {
     EXPECT_EQ(study.groups[0].stratum.bin, "0-0.5");
     EXPECT_EQ(study.groups[0].values, (Numbers{2, 7}));
     EXPECT_EQ(study.groups[1].values, (Numbers{4, 5})) << "1 belongs to the last bin";
-    EXPECT_NE(study.coverage.reasons().find("1 without 'place'"), std::string::npos);
+    EXPECT_EQ(study.coverage.reasons(), "1 failed, 1 without 'place', 1 with 'place' outside of 0 to 1");
 }
 
 TEST(Study, LabelsAreStudiedApart) {
@@ -144,6 +200,9 @@ TEST(Study, UnknownColumnsAreNamedWithThoseThereAre) {
     EXPECT_THROW(study_table(sample(), options), StudyError);
     options = {};
     options.correlate = {"group"};
+    EXPECT_THROW(study_table(sample(), options), StudyError);
+    options = {};
+    options.subject = "nothere";
     EXPECT_THROW(study_table(sample(), options), StudyError);
 }
 
