@@ -73,6 +73,7 @@ private:
             return;
         }
         const ArchiveFile checked(file);  // complete, ours, and of this format
+        checked.require_copyable();
         const hdf::Handle source = open_file(file, H5F_ACC_RDONLY);
         hdf::checked(H5Ocopy(source.get(), "/", packed.get(), place.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                      "copying '" + file.string() + "'");
