@@ -43,7 +43,10 @@ void print_tree(const ArchiveFile& file, std::ostream& out) {
 
 void get(const ArchiveFile& file, const Request& request, std::ostream& out) {
     if (request.output.empty()) return file.print(request.path, out);
-    const bool is_npy = request.output.ends_with(".npy");
+    refuse_overwriting(request.output, request.archive);
+    std::string extension = std::filesystem::path(request.output).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const bool is_npy = extension == ".npy";
     write_file(request.output, [&](std::ostream& stream) {
         is_npy ? file.save_npy(request.path, stream) : file.print(request.path, stream);
     });

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 #include "engine/cli/browse.h"
 #include "engine/cli/export.h"
@@ -18,12 +19,25 @@
 #include "engine/cli/validate_archive.h"
 #include "engine/core/version.h"
 
+namespace {
+
+/// One line, with the verb whose help says more.
+std::string usage_sentence(const CLI::App* app, const CLI::Error& error) {
+    std::string verb = app->get_name();
+    for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = chosen.front()->get_subcommands())
+        verb += " " + chosen.front()->get_name();
+    return fmt::format("lumenline: {}; {} --help lists what there is\n", error.what(), verb);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     using namespace lumenline;
     CLI::App app("Lumenline: centerlines and surface geometry of vascular cohorts", "lumenline");
     app.set_version_flag("--version",
                          fmt::format("lumenline {} ({}, {})", version(), build_commit(), build_compiler()));
     app.require_subcommand(1);
+    app.failure_message(usage_sentence);
     app.footer(
         "Results go to standard output, progress and diagnostics to standard error.\n"
         "Exit status: 0 all models ok or warning, 1 at least one failed, 2 usage or configuration error, 3 stopped.");

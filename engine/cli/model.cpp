@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/cohort.h"
 #include "config/values.h"
@@ -16,6 +18,7 @@
 #include "engine/cli/standard_output.h"
 #include "engine/cli/table.h"
 #include "engine/schedule/run_models.h"
+#include "io/archive/commit.h"
 #include "io/archive/model_file.h"
 
 namespace lumenline {
@@ -32,6 +35,12 @@ struct ModelArguments {
     bool skip_self_intersections = false;
     bool skip_characterization = false;
 };
+
+const std::vector<std::pair<std::string, EndpointMode>> kModes{{"auto", EndpointMode::kAuto},
+                                                               {"boundaries", EndpointMode::kBoundaries},
+                                                               {"caps", EndpointMode::kCaps},
+                                                               {"tips", EndpointMode::kTips},
+                                                               {"points", EndpointMode::kPoints}};
 
 Vec3 parse_point(const std::string& text, const std::string& option) {
     Vec3 p;
@@ -55,6 +64,13 @@ void state_inlet(EndpointOptions& endpoints, const std::string& text) {
         const std::string sentence = error.what();
         throw CLI::ValidationError("--inlet", sentence.substr(std::min(sentence.find("the rule"), sentence.size())));
     }
+}
+
+template <class Enumeration>
+std::vector<std::string> words_of(const std::vector<std::pair<std::string, Enumeration>>& words) {
+    std::vector<std::string> known;
+    for (const auto& [word, value] : words) known.push_back(word);
+    return known;
 }
 
 void print_result(const ModelRecord& record, const std::string& output) {
@@ -83,6 +99,7 @@ int run(ModelArguments arguments) {
     std::error_code ignored;
     if (std::filesystem::equivalent(task.surface_path, arguments.output, ignored))
         throw CLI::ValidationError("--output", "this is the surface itself, which would be overwritten");
+    const std::filesystem::path output = output_file(arguments.output);
     ArchiveOptions archive;
     archive.float32_fields = arguments.precision == "float32";
     for (const ArchiveFields fields : {ArchiveFields::kSurface, ArchiveFields::kLines})
@@ -95,7 +112,7 @@ int run(ModelArguments arguments) {
     int status = kDone;
     const RunReport report = run_models({&task, 1}, schedule, load_task, [&](ModelRecord&& record) {
         record.identity.inputs_sha256 = inputs_digest(task, record.identity.source_sha256, archive);
-        write_model_file(arguments.output, record, archive);
+        write_model_file(output, record, archive);
         if (record.failure) {
             fmt::print(stderr, "{}: failed in {}: {}\n", task.surface_path, stage_name(record.failure->stage),
                        record.failure->sentence);
@@ -107,43 +124,53 @@ int run(ModelArguments arguments) {
     return report.interrupted + report.not_started > 0 ? kStopped : status;
 }
 
+/// An option whose values are words. CLI11's own transformer takes the numbers behind them too, and writes bytes into
+/// its help for an enumeration of bytes.
+template <class Enumeration>
+CLI::Option* add_words(CLI::App& verb, const std::string& name, Enumeration& target, const std::string& help,
+                       const std::vector<std::pair<std::string, Enumeration>>& words) {
+    return verb
+        .add_option_function<std::string>(
+            name,
+            [&target, words](const std::string& word) {
+                for (const auto& [known, value] : words)
+                    if (known == word) target = value;
+            },
+            help)
+        ->check(CLI::IsMember(words_of(words)));
+}
+
 void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     PipelineOptions& o = arguments.task.options;
-    const std::map<std::string, EndpointMode> modes{{"auto", EndpointMode::kAuto},
-                                                    {"boundaries", EndpointMode::kBoundaries},
-                                                    {"caps", EndpointMode::kCaps},
-                                                    {"tips", EndpointMode::kTips},
-                                                    {"points", EndpointMode::kPoints}};
-    const std::map<std::string, Refinement> refinements{
-        {"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}};
-    const std::map<std::string, ComponentPolicy> policies{
-        {"fail", ComponentPolicy::kFail}, {"largest", ComponentPolicy::kLargest}, {"each", ComponentPolicy::kEach}};
-    const std::map<std::string, Pairs> pairs{{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}};
-    const std::map<std::string, Topology> topology{{"tree", Topology::kTree}, {"network", Topology::kNetwork}};
-    verb.add_option("--mode", arguments.modes,
-                    "Where ends come from: auto, boundaries, caps, tips, points; several with commas between them")
+    verb.add_option_function<std::vector<std::string>>(
+            "--mode",
+            [&arguments](const std::vector<std::string>& words) {
+                for (const std::string& word : words)
+                    for (const auto& [known, mode] : kModes)
+                        if (known == word) arguments.modes.push_back(mode);
+            },
+            "Where ends come from: auto, boundaries, caps, tips, points; several with commas between them")
         ->delimiter(',')
-        ->transform(CLI::CheckedTransformer(modes))
+        ->check(CLI::IsMember(words_of(kModes)))
         ->default_str("auto");
     verb.add_option("--tip-length", o.endpoints.tip_length,
                     "Least length of a blind branch beyond the wall of its parent, in its radii")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();
-    const std::map<std::string, Join> joins{{"axis", Join::kAxis}, {"centre", Join::kCentre}};
-    verb.add_option("--refine", o.trace.refine,
-                    "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth "
-                    "surface's axis)")
-        ->transform(CLI::CheckedTransformer(refinements))
+    add_words(verb, "--refine", o.trace.refine,
+              "Line: none (as traced), path (relaxed on the complex) or medial (moved off it to the smooth "
+              "surface's axis)",
+              {{"none", Refinement::kNone}, {"path", Refinement::kPath}, {"medial", Refinement::kMedial}})
         ->default_str("medial");
-    verb.add_option("--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all")
-        ->transform(CLI::CheckedTransformer(pairs))
+    add_words(verb, "--pairs", o.trace.pairs, "Trace each target from its nearest source, or from all",
+              {{"nearest", Pairs::kNearest}, {"all", Pairs::kAll}})
         ->default_str("nearest");
-    verb.add_option("--join", o.trace.join, "End lines on the axis or at the centre of their openings")
-        ->transform(CLI::CheckedTransformer(joins))
+    add_words(verb, "--join", o.trace.join, "End lines on the axis or at the centre of their openings",
+              {{"axis", Join::kAxis}, {"centre", Join::kCentre}})
         ->default_str("axis");
-    verb.add_option("--topology", o.trace.topology,
-                    "Lumen with loops: tree (a line to each target) or network (and two around each loop)")
-        ->transform(CLI::CheckedTransformer(topology))
+    add_words(verb, "--topology", o.trace.topology,
+              "Lumen with loops: tree (a line to each target) or network (and two around each loop)",
+              {{"tree", Topology::kTree}, {"network", Topology::kNetwork}})
         ->default_str("tree");
     verb.add_option("--weld-tolerance", o.condition.weld_tolerance,
                     "Share of the diagonal within which vertices are one")
@@ -167,8 +194,9 @@ void add_stage_options(CLI::App& verb, ModelArguments& arguments) {
     verb.add_option("--speck-share", o.condition.speck_share, "Remove components below this share of the area")
         ->check(CLI::Range(0.0, 0.5))
         ->capture_default_str();
-    verb.add_option("--components", o.condition.components, "Several components: fail, largest or each")
-        ->transform(CLI::CheckedTransformer(policies))
+    add_words(
+        verb, "--components", o.condition.components, "Several components: fail, largest or each",
+        {{"fail", ComponentPolicy::kFail}, {"largest", ComponentPolicy::kLargest}, {"each", ComponentPolicy::kEach}})
         ->default_str("each");
     verb.add_option("--decimate", o.condition.decimate, "Coarsen by at most this share of the diagonal; 0 = off")
         ->check(CLI::Range(0.0, 0.1))
@@ -199,7 +227,7 @@ void add_model(CLI::App& app, std::function<int()>& action) {
                      "What goes into the file: all, surface (no Voronoi diagram), lines (nor the surface)")
         ->check(CLI::IsMember({"all", "surface", "lines"}))
         ->capture_default_str();
-    verb->add_option("--threads", arguments->threads, "Threads to use; all if not given")->check(CLI::PositiveNumber);
+    verb->add_option("--threads", arguments->threads, "Threads to use; all if not given")->check(CLI::Range(1, 4096));
     add_stage_options(*verb, *arguments);
     verb->footer(
         "Points are in the unit after scaling. Write negative coordinates as --inlet=-1,2,3.\n"

@@ -54,7 +54,13 @@ struct Part {
 std::vector<Part> parts_of(const std::filesystem::path& archive, const ArchiveFiles& files,
                            const std::vector<std::string>& wanted) {
     std::vector<Part> parts{{files.root(), files.open(files.root())}};
-    if (!std::filesystem::is_directory(archive)) return parts;
+    if (!std::filesystem::is_directory(archive)) {
+        if (!wanted.empty())
+            throw UnknownName(
+                "'" + archive.string() +
+                "' is one file, which comes along whole: leave --model out, or give the archive's directory");
+        return parts;
+    }
     for (const std::string& id : wanted) open_model(archive, id);
     const std::set<std::string> only(wanted.begin(), wanted.end());
     for (const ModelSummary& model : list_models(archive)) {
@@ -100,6 +106,7 @@ void write_part(const Part& part, const std::string& name, std::ostream& out) {
 }  // namespace
 
 void write_page(const std::filesystem::path& archive, const std::filesystem::path& file, const PageOptions& options) {
+    refuse_overwriting(file, archive);
     const ArchiveFiles files(archive);
     const std::string html = unpacked(page_gzip());
     const std::size_t mark = html.find(kBlocksMark);

@@ -9,9 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,6 +22,7 @@
 #include "engine/phantom/phantom.h"
 #include "engine/phantom/tree.h"
 #include "engine/phantom/voxels.h"
+#include "io/archive/commit.h"
 #include "io/mesh/mesh_io.h"
 
 namespace lumenline {
@@ -96,16 +97,15 @@ void write_truth(const std::string& path, const Phantom& phantom, double inset) 
     const double length = phantom.truth.total_length();
     inset = std::min(inset, 0.25 * length);
     const auto steps = static_cast<std::size_t>(std::ceil(4 * (length - 2 * inset) / phantom.edge_length));
-    std::ofstream file(path);
-    file << "abscissa\tx\ty\tz\tradius\n";
-    for (std::size_t i = 0; i <= steps; ++i) {
-        const double s = inset + (length - 2 * inset) * (static_cast<double>(i) / static_cast<double>(steps));
-        const Vec3 p = phantom.truth.position(s);
-        file << exact_text(s) << '\t' << exact_text(p.x) << '\t' << exact_text(p.y) << '\t' << exact_text(p.z) << '\t'
-             << exact_text(phantom.truth.inscribed_radius(s)) << '\n';
-    }
-    file.close();
-    if (!file) throw std::runtime_error("cannot write the truth to " + path);
+    write_file(path, [&](std::ostream& file) {
+        file << "abscissa\tx\ty\tz\tradius\n";
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double s = inset + (length - 2 * inset) * (static_cast<double>(i) / static_cast<double>(steps));
+            const Vec3 p = phantom.truth.position(s);
+            file << exact_text(s) << '\t' << exact_text(p.x) << '\t' << exact_text(p.y) << '\t' << exact_text(p.z)
+                 << '\t' << exact_text(phantom.truth.inscribed_radius(s)) << '\n';
+        }
+    });
 }
 
 int run(const PhantomArguments& arguments, const std::vector<KindOption>& table) {
@@ -118,7 +118,8 @@ int run(const PhantomArguments& arguments, const std::vector<KindOption>& table)
         fmt::print(stderr, "lumenline phantom: {}\n", error.what());
         return kUsage;
     }
-    write_surface(arguments.output, phantom.points, phantom.triangles);
+    refuse_overwriting(arguments.truth, arguments.output);
+    write_surface(output_file(arguments.output).string(), phantom.points, phantom.triangles);
     // The ends of a sampled shape are staircases themselves: two voxels before them the axis is inside.
     const double inset = arguments.voxels.size > 0 ? 2 * phantom.edge_length : 0;
     if (!arguments.truth.empty()) write_truth(arguments.truth, phantom, inset);
@@ -127,24 +128,24 @@ int run(const PhantomArguments& arguments, const std::vector<KindOption>& table)
 
 // Rows of the axis of every branch, a quarter of an edge apart or a little less. Abscissas count from the root.
 void write_truth(const std::string& path, const TreePhantom& tree, int points_around) {
-    std::ofstream file(path);
-    file << "branch\tparent\tabscissa\tx\ty\tz\tradius\tnear_junction\n";
-    const auto& branches = tree.truth.branches();
-    for (std::size_t i = 0; i < branches.size(); ++i) {
-        const TreeBranch& b = branches[i];
-        const double edge = 2 * std::numbers::pi * b.end_radius / points_around;
-        const auto steps = static_cast<std::size_t>(std::ceil(4 * b.length() / edge));
-        const std::string parent = b.parent == TreeBranch::kNoParent ? "-1" : std::to_string(b.parent);
-        for (std::size_t k = 0; k <= steps; ++k) {
-            const TreeAbscissa at{i, b.length() * (static_cast<double>(k) / static_cast<double>(steps))};
-            const Vec3 p = tree.truth.position(at);
-            file << i << '\t' << parent << '\t' << exact_text(b.abscissa + at.s) << '\t' << exact_text(p.x) << '\t'
-                 << exact_text(p.y) << '\t' << exact_text(p.z) << '\t' << exact_text(tree.truth.inscribed_radius(at))
-                 << '\t' << (tree.truth.near_junction(at) ? 1 : 0) << '\n';
+    write_file(path, [&](std::ostream& file) {
+        file << "branch\tparent\tabscissa\tx\ty\tz\tradius\tnear_junction\n";
+        const auto& branches = tree.truth.branches();
+        for (std::size_t i = 0; i < branches.size(); ++i) {
+            const TreeBranch& b = branches[i];
+            const double edge = 2 * std::numbers::pi * b.end_radius / points_around;
+            const auto steps = static_cast<std::size_t>(std::ceil(4 * b.length() / edge));
+            const std::string parent = b.parent == TreeBranch::kNoParent ? "-1" : std::to_string(b.parent);
+            for (std::size_t k = 0; k <= steps; ++k) {
+                const TreeAbscissa at{i, b.length() * (static_cast<double>(k) / static_cast<double>(steps))};
+                const Vec3 p = tree.truth.position(at);
+                file << i << '\t' << parent << '\t' << exact_text(b.abscissa + at.s) << '\t' << exact_text(p.x) << '\t'
+                     << exact_text(p.y) << '\t' << exact_text(p.z) << '\t'
+                     << exact_text(tree.truth.inscribed_radius(at)) << '\t' << (tree.truth.near_junction(at) ? 1 : 0)
+                     << '\n';
+            }
         }
-    }
-    file.close();
-    if (!file) throw std::runtime_error("cannot write the truth to " + path);
+    });
 }
 
 int run(const TreeArguments& arguments) {
@@ -157,7 +158,8 @@ int run(const TreeArguments& arguments) {
         fmt::print(stderr, "lumenline phantom: {}\n", error.what());
         return kUsage;
     }
-    write_surface(arguments.output, tree.points, tree.triangles);
+    refuse_overwriting(arguments.truth, arguments.output);
+    write_surface(output_file(arguments.output).string(), tree.points, tree.triangles);
     if (!arguments.truth.empty()) write_truth(arguments.truth, tree, options.points_around);
     return kDone;
 }

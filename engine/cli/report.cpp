@@ -40,6 +40,14 @@ int run(const Request& request) {
                    printable(request.ratings_template));
         return kUsage;
     }
+    output_file(request.output);
+    refuse_overwriting(request.output, request.archive);
+    if (!request.options.ratings.empty()) refuse_overwriting(request.output, request.options.ratings);
+    if (!request.ratings_template.empty()) {
+        output_file(request.ratings_template);
+        refuse_overwriting(request.ratings_template, request.archive);
+        refuse_overwriting(request.output, request.ratings_template);
+    }
     const Report report = gather_report(request.archive, request.options, say_progress);
     write_file(request.output, [&](std::ostream& out) { write_report(report, out); });
     if (!request.ratings_template.empty())

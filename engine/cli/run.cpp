@@ -326,7 +326,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
     CLI::App* verb = app.add_subcommand("run", "Compute a cohort into its archive, or what is left of it");
     verb->add_option("COHORT", arguments->cohort, "The cohort's YAML file (config/SCHEMA.md)")->required();
     verb->add_option("--threads", arguments->threads, "Threads to use, instead of the configuration's")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 4096));
     verb->add_option("--only", arguments->only, "Compute this model only; may be repeated")->take_all();
     verb->add_option("--shard", arguments->shard, "Compute part I of N (I/N), beside the other parts; then merge");
     verb->add_flag("--wait", arguments->wait, "Wait while another run holds the archive, instead of stopping");

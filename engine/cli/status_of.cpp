@@ -8,6 +8,7 @@
 #include "config/cohort.h"
 #include "engine/cli/run.h"
 #include "engine/population/study.h"
+#include "io/archive/commit.h"
 #include "io/archive/errors.h"
 #include "io/archive/lease.h"
 #include "io/archive/utf8.h"
@@ -35,6 +36,8 @@ int status_of(const std::function<int()>& action) {
     } catch (const LeaseHeld& held) {
         fmt::print(stderr, "{}\n", held.what());
         return kUsage;
+    } catch (const OutputTaken& error) {
+        return refused(error, kUsage);
     } catch (const UnknownName& error) {
         return refused(error, kUsage);
     } catch (const StudyError& error) {

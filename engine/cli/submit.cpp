@@ -158,7 +158,7 @@ void add_submit(CLI::App& app, std::function<int()>& action) {
     verb->add_option("--partition", request.partition, "As sbatch takes it");
     verb->add_option("--time", request.time, "Longest time of a task, as sbatch takes it");
     verb->add_option("--mem", request.memory, "Memory of a task, as sbatch takes it");
-    verb->add_option("--cpus-per-task", request.cpus, "Threads of a task")->check(CLI::PositiveNumber);
+    verb->add_option("--cpus-per-task", request.cpus, "Threads of a task")->check(CLI::Range(1, 4096));
     verb->add_option("SBATCH", request.more, "Behind --: any other options of sbatch, for every job");
     verb->add_flag("--print", arguments->print, "Print the scripts, and neither write nor submit anything");
     verb->footer(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/limits.h"
 #include "engine/core/text.h"
 
 // Welding sorts the vertices along one direction and compares each with the representatives in a
@@ -17,8 +18,6 @@ namespace {
 
 // Coordinates 1, 1/g and 1/p (golden ratio, plastic number): no small integer relation.
 const Vec3 kSkewDirection = normalized({1, 0.61803398874989485, 0.75487766624669276});
-
-constexpr double kLargestCoordinate = 1e20;  // squares and cubes of anything below are finite and far from the limit
 
 constexpr std::size_t kMostElements = std::size_t{1} << 31;
 

@@ -3,10 +3,12 @@
 #include "engine/endpoints/endpoints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "engine/core/limits.h"
 #include "engine/core/text.h"
 #include "engine/endpoints/ends.h"
 #include "engine/endpoints/roles.h"
@@ -25,6 +27,7 @@ public:
         : surface_(surface), complex_(complex), options_(options), context_(context) {}
 
     Endpoints run() {
+        refuse_far_points();
         find_ends();
         refuse_missing();
         for (const Vec3& p : options_.inlets) inlets_.push_back(take_wish(p, EndpointRole::kInlet));
@@ -83,6 +86,22 @@ private:
         if (has(EndpointMode::kCaps) || has(EndpointMode::kAuto)) missing += ", no flat caps";
         if (wants_tips()) missing += ", no blind end longer than " + short_text(options_.tip_length) + " of its radii";
         refuse_endpoints(ErrorCode::kEndpointsMissing, missing + "; give its inlet and outlets as points");
+    }
+
+    /// Refuses points from which distances overflow: no ball would be the nearest.
+    void refuse_far_points() const {
+        for (const Vec3& p : options_.inlets) refuse_if_far(p, "inlet");
+        for (const Vec3& p : options_.outlets) refuse_if_far(p, "outlet");
+        for (const InletRule& rule : options_.inlet_rules) refuse_if_far(rule.point, "inlet");
+    }
+
+    static void refuse_if_far(Vec3 point, const std::string& role) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::fabs(point[axis]) <= kLargestCoordinate))
+                refuse_endpoints(ErrorCode::kEndpointOutside, "the " + role + " point " + short_text(point) +
+                                                                  " has a coordinate beyond the limit of " +
+                                                                  short_text(kLargestCoordinate) +
+                                                                  ": give a point inside of the lumen");
     }
 
     [[nodiscard]] bool accepts_points() const { return has(EndpointMode::kAuto) || has(EndpointMode::kPoints); }

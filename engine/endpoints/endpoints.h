@@ -27,7 +27,7 @@ namespace lumenline {
 ///
 /// @param context  receives warnings: inlet_not_clear, endpoint_off_axis, endpoint_unconnected
 /// @throws StageError kEndpointsMissing (no ends, no points), kNoInlet, kNoOutlet,
-///         kEndpointOutside (more than a quarter of the local radius outside of the lumen),
+///         kEndpointOutside (more than a quarter of the local radius outside of the lumen, or beyond 1e20),
 ///         kEndpointAmbiguous (two branches that do not meet there hold the point equally deep, or
 ///         two points mean one end)
 /// @cost O(complex) per endpoint; O(V log V) for tips, and for the order of two outlets or more

@@ -87,6 +87,13 @@ void Values::require_within(std::uintmax_t file_bytes) const {
         throw Error(name_ + ": its values do not fit into the file of " + std::to_string(file_bytes) + " bytes");
 }
 
+void Values::require_stored(std::uintmax_t end) const {
+    const haddr_t offset = H5Dget_offset(object_.get());  // undefined for values in chunks
+    if (offset == HADDR_UNDEF) return;
+    if (offset > end || H5Dget_storage_size(object_.get()) > end - offset)
+        throw Error(name_ + ": its values lie beyond the end of the file");
+}
+
 void Values::read(hid_t memory_type, std::size_t first, std::size_t count, void* target) const {
     if (is_attribute_) {
         checked(H5Aread(object_.get(), memory_type, target), name_);

@@ -28,6 +28,8 @@ public:
 
     /// Throws Error if the values cannot all stand in a file of `file_bytes` bytes.
     void require_within(std::uintmax_t file_bytes) const;
+    /// Throws Error if the values of a contiguous dataset stand beyond `end` [bytes], that of the file.
+    void require_stored(std::uintmax_t end) const;
 
     /// Values of rows [first, first + count) (all of an attribute). Numbers only.
     [[nodiscard]] std::vector<double> numbers(std::size_t first, std::size_t count) const;

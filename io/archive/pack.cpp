@@ -73,6 +73,7 @@ private:
             return;
         }
         const ArchiveFile checked(file);  // complete, ours, and of this format
+        checked.require_copyable();
         const hdf::Handle source = open_file(file, H5F_ACC_RDONLY);
         hdf::checked(H5Ocopy(source.get(), "/", packed.get(), place.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                      "copying '" + file.string() + "'");
@@ -90,7 +91,8 @@ Packed pack_archive(const std::filesystem::path& archive, const std::filesystem:
     const hdf::Quiet quiet;
     const std::filesystem::path index = index_or_file(archive);
     try {
-        return Packing(index, file).run(progress);
+        refuse_overwriting(file, archive);
+        return Packing(index, output_file(file)).run(progress);
     } catch (const hdf::Error& error) {
         throw ArchiveError("cannot pack '" + index.string() + "': " + printable(error.what()));
     } catch (const std::system_error& error) {

@@ -115,7 +115,14 @@ struct ArchiveFile::Impl {
         return values;
     }
 
+    /// HDF5 crashes where it lists attributes of which one cannot be read. Looking for a name that none has reads
+    /// them all, and fails as it should.
+    void require_readable_attributes(const std::string& object) const {
+        hdf::checked(H5Aexists_by_name(root.get(), from_root(object).c_str(), "\x01", H5P_DEFAULT), object);
+    }
+
     [[nodiscard]] std::vector<std::string> attribute_names(const std::string& object) const {
+        require_readable_attributes(object);
         std::vector<std::string> found;
         hsize_t position = 0;
         hdf::checked(H5Aiterate_by_name(root.get(), from_root(object).c_str(), H5_INDEX_NAME, H5_ITER_INC, &position,
@@ -254,6 +261,17 @@ std::vector<ArchiveNode> ArchiveFile::nodes() const {
             found.push_back(std::move(node));
         }
         return found;
+    });
+}
+
+void ArchiveFile::require_copyable() const {
+    impl_->guarded([&] {
+        haddr_t end = 0;
+        hdf::checked(H5Fget_eoa(impl_->file.get(), &end), "its end");
+        for (const auto& [path, type] : impl_->objects()) {
+            impl_->require_readable_attributes(path);
+            if (type == H5O_TYPE_DATASET) Values::dataset(impl_->root.get(), Impl::from_root(path)).require_stored(end);
+        }
     });
 }
 

@@ -63,6 +63,11 @@ public:
     /// All groups and datasets, parents before children, by name. Links to other files are left out.
     [[nodiscard]] std::vector<ArchiveNode> nodes() const;
 
+    /// Looks whether every object and attribute can be read, and whether values lie within the file: HDF5 copies
+    /// without looking, and crashes where they do not.
+    /// @cost O(objects)
+    void require_copyable() const;
+
     /// Writes a dataset, or an attribute "PATH@name", as tab-separated text: one line per index of
     /// the first dimension, numbers as the shortest text that reads back as the same number,
     /// control characters in text as '?'. Large datasets are read in blocks.

@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 
 #include "io/archive/handle.h"
@@ -60,6 +62,29 @@ void replace_attribute(hid_t file, const char* name, const std::string& text) {
     const hdf::Handle attribute(
         H5Acreate2(file, name, type.get(), hdf::extent(0, nullptr).get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
     hdf::checked(H5Awrite(attribute.get(), type.get(), text.c_str()), name);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(Damage, AttributesOfWhichOneCannotBeReadAreRefused) {
+    const std::filesystem::path file = sample_file("damage_attribute");
+    std::string bytes = bytes_of(file);
+    const std::size_t name = bytes.find("coordinate_system");
+    ASSERT_NE(name, std::string::npos);
+    const std::size_t type = bytes.find('\x13', name);  // text, version 1 of the message, stands behind the name
+    ASSERT_LT(type, name + 32);
+    bytes[type] = '\xF3';
+    write_bytes(file, bytes);
+    const ArchiveFile damaged(file);
+    EXPECT_THROW(damaged.attributes("/"), ArchiveError);
+    EXPECT_THROW(damaged.require_copyable(), ArchiveError);
 }
 
 TEST(Damage, MissingEmptyAndForeignFilesAreRefused) {

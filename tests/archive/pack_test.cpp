@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
+#include "io/archive/handle.h"
 #include "io/archive/index.h"
 #include "io/archive/model_file.h"
 #include "io/archive/read.h"
@@ -65,6 +69,43 @@ TEST(Pack, DamagedModelsAndPackedArchivesAreRefusedAndLeaveNoFile) {
     EXPECT_FALSE(std::filesystem::exists(directory / "two.h5"));
     EXPECT_FALSE(std::filesystem::exists(directory / "two.h5.tmp"));
     EXPECT_THROW(pack_archive(directory / "nowhere", directory / "two.h5", nullptr), UnknownName);
+}
+
+/// Makes the layout of a contiguous dataset say another address.
+void move_values(const std::filesystem::path& file, const char* path, haddr_t to) {
+    haddr_t from = HADDR_UNDEF;
+    hsize_t size = 0;
+    {
+        const hdf::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, hdf::file_access().get()), H5Fclose, "open");
+        const hdf::Handle dataset(H5Dopen2(opened.get(), path, H5P_DEFAULT), H5Dclose, path);
+        from = H5Dget_offset(dataset.get());
+        size = H5Dget_storage_size(dataset.get());
+    }
+    std::string layout(16, '\0');
+    std::memcpy(layout.data(), &from, 8);
+    std::memcpy(layout.data() + 8, &size, 8);
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    const std::size_t place = bytes.find(layout);
+    ASSERT_NE(place, std::string::npos);
+    stream.seekp(static_cast<std::streamoff>(place));
+    stream.write(reinterpret_cast<const char*>(&to), 8);
+}
+
+TEST(Pack, ModelWhoseValuesLieBeyondTheEndOfItsFileIsRefused) {
+    const auto directory = sample_archive({sample_record("a")}, "pack_beyond");
+    const std::filesystem::path model = model_path(directory, "a");
+    for (const haddr_t to : {haddr_t{std::filesystem::file_size(model)} - 4, haddr_t{1} << 40}) {
+        move_values(model, "/centerlines/radius", to);
+        try {
+            pack_archive(directory, directory / "one.h5", nullptr);
+            FAIL() << "packed";
+        } catch (const ArchiveError& error) {
+            EXPECT_NE(std::string(error.what()).find("/centerlines/radius"), std::string::npos) << error.what();
+        }
+        EXPECT_FALSE(std::filesystem::exists(directory / "one.h5"));
+        sample_archive({sample_record("a")}, "pack_beyond");
+    }
 }
 
 }  // namespace

@@ -153,6 +153,63 @@ TEST(Model, PrecisionConcernsFieldsOnly) {
                   "/voronoi/arrival_time", "/voronoi/centerline_distance"}));
 }
 
+TEST(Outputs, NeitherInputsNorSpecialFilesAreReplaced) {
+    const fs::path folder = small_cohort();
+    ASSERT_EQ(run_cohort(folder, {"--only", "coil"}).status, 0);
+    write_text(folder / "ratings.tsv", "model\trating\ncoil\tgood\n");
+    ASSERT_EQ(run_shell("mkfifo pipe && mkdir inner", folder).status, 0);
+    const std::string index = read_text(folder / "results/cohort.h5"),
+                      model = read_text(folder / "results/models/coil.hdf");
+    const std::string ratings = read_text(folder / "ratings.tsv");
+    for (const auto& [words, status] : std::vector<std::pair<std::vector<std::string>, int>>{
+             {{"pack", "results", "-o", "results/models/coil.hdf"}, 2},
+             {{"pack", "results", "-o", "results/cohort.h5"}, 2},
+             {{"report", "results", "-o", "results/cohort.h5"}, 2},
+             {{"report", "results", "-o", "ratings.tsv", "--ratings", "ratings.tsv"}, 2},
+             {{"report", "results", "-o", "x", "--template", "./x"}, 2},
+             {{"browse", "results", "page", "-o", "results/models/new.hdf"}, 2},
+             {{"browse", "results", "get", "coil", "/surface/points", "-o", "results/models/coil.hdf"}, 2},
+             {{"phantom", "cylinder", "-o", "x.ply", "--truth", "x.ply"}, 2},
+             {{"report", "results", "-o", "results"}, 1},
+             {{"report", "results", "-o", ""}, 1},
+             {{"report", "results", "-o", "pipe"}, 1},
+             {{"pack", "results", "-o", "inner"}, 1},
+             {{"pack", "results", "-o", "absent/one.h5"}, 1},
+             {{"browse", "results", "get", "coil", "/surface/points", "-o", "pipe"}, 1},
+             {{"phantom", "cylinder", "-o", "x.ply", "--truth", "pipe"}, 1}}) {
+        const Finished run = run_lumenline(words, folder);
+        EXPECT_EQ(run.status, status) << words[0] << " " << run.err;
+        ASSERT_EQ(lines_of(run.err).size(), 1U) << run.err;
+        EXPECT_EQ(run.err.rfind("lumenline: cannot write '", 0), 0U) << run.err;
+    }
+    EXPECT_TRUE(read_text(folder / "results/cohort.h5") == index);
+    EXPECT_TRUE(read_text(folder / "results/models/coil.hdf") == model);
+    EXPECT_EQ(read_text(folder / "ratings.tsv"), ratings);
+    EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+    EXPECT_FALSE(fs::exists(folder / "x"));
+}
+
+TEST(Outputs, LinkStaysAndItsTargetIsWritten) {
+    const fs::path folder = small_cohort();
+    ASSERT_EQ(run_cohort(folder, {"--only", "coil"}).status, 0);
+    write_text(folder / "target.txt", "old");
+    fs::create_symlink("target.txt", folder / "link.NPY");
+    ASSERT_EQ(run_lumenline({"browse", "results", "get", "coil", "/surface/points", "-o", "link.NPY"}, folder).status,
+              0);
+    EXPECT_TRUE(fs::is_symlink(folder / "link.NPY"));
+    EXPECT_EQ(read_text(folder / "target.txt").substr(1, 5), "NUMPY") << "the name's case plays no part";
+}
+
+TEST(Page, ModelsOfAFileThatIsTheWholeArchiveCannotBeChosen) {
+    const fs::path folder = small_cohort();
+    ASSERT_EQ(run_cohort(folder, {"--only", "coil"}).status, 0);
+    ASSERT_EQ(run_lumenline({"pack", "results", "-o", "one.h5"}, folder).status, 0);
+    const Finished page = run_lumenline({"browse", "one.h5", "page", "-o", "p.html", "--model", "coil"}, folder);
+    EXPECT_EQ(page.status, 2);
+    EXPECT_NE(page.err.find("--model"), std::string::npos) << page.err;
+    EXPECT_FALSE(fs::exists(folder / "p.html"));
+}
+
 TEST(Browse, ClosedPipeIsNoError) {
     const fs::path folder = small_cohort();
     ASSERT_EQ(run_cohort(folder, {"--only", "coil"}).status, 0);

@@ -115,11 +115,43 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndSayWhatIsWrong) {
         EXPECT_EQ(run.status, 2) << line << "\n" << run.out << run.err;
         EXPECT_EQ(run.out, "") << line;
         EXPECT_NE(run.err.find(refusal.word), std::string::npos) << line << "\n" << run.err;
-        EXPECT_LE(lines_of(run.err).size(), 3U) << line << "\n" << run.err;
+        EXPECT_EQ(lines_of(run.err).size(), 1U) << line << "\n" << run.err;
+        EXPECT_EQ(run.err.rfind("lumenline", 0), 0U) << line << "\n" << run.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "results")) << line;
         EXPECT_FALSE(std::filesystem::exists(folder / "a.hdf")) << line;
         EXPECT_FALSE(std::filesystem::exists(folder / "a.ply")) << line;
     }
+}
+
+TEST(Usage, WordsAreListedInHelpAndInRefusalsAndNumbersAreNone) {
+    const std::string help = run_lumenline({"model", "--help"}, fresh_folder()).out;
+    EXPECT_EQ(help.find('\0'), std::string::npos);
+    for (const char* word : {"boundaries", "medial", "nearest", "centre", "network", "largest"})
+        EXPECT_NE(help.find(word), std::string::npos) << word;
+    for (const auto& [option, word] : std::vector<std::pair<std::string, std::string>>{{"--mode", "boundaries"},
+                                                                                       {"--refine", "medial"},
+                                                                                       {"--pairs", "nearest"},
+                                                                                       {"--join", "centre"},
+                                                                                       {"--topology", "network"},
+                                                                                       {"--components", "largest"}})
+        for (const char* wrong : {"foo", "1"}) {
+            const Finished run = run_lumenline({"model", "a.ply", "-o", "a.hdf", option, wrong}, fresh_folder());
+            EXPECT_EQ(run.status, 2) << option << wrong;
+            EXPECT_EQ(run.err.find('\0'), std::string::npos) << option << wrong;
+            EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+        }
+}
+
+TEST(Usage, ThreadsHaveTheLimitsOfTheSchema) {
+    for (const char* threads : {"0", "-1", "4097"})
+        for (const std::vector<std::string>& words :
+             std::vector<std::vector<std::string>>{{"run", "c.yaml", "--threads", threads},
+                                                   {"model", "a.ply", "-o", "a.hdf", "--threads", threads},
+                                                   {"submit", "c.yaml", "--cpus-per-task", threads}}) {
+            const Finished run = run_lumenline(words, fresh_folder());
+            EXPECT_EQ(run.status, 2) << words[0];
+            EXPECT_NE(run.err.find("1 to 4096"), std::string::npos) << run.err;
+        }
 }
 
 TEST(Usage, WrongPointTextIsRefusedBeforeAnythingIsRead) {

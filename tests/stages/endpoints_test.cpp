@@ -242,6 +242,23 @@ TEST(Endpoints, PointOutsideIsRefusedBeyondAQuarterOfTheRadius) {
     EXPECT_EQ(model.refusal(points({outlet}, {{0, 0, -1000}})), ErrorCode::kEndpointOutside);
 }
 
+TEST(Endpoints, PointWhoseDistancesOverflowIsRefused) {
+    const Model model = closed_hairpin();
+    const Vec3 inside{kBend, 0, 3};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const double far : {1e21, 1e154, -1e300, kInfinity, std::nan("")}) {
+        EXPECT_EQ(model.refusal(points({{far, far, far}}, {inside})), ErrorCode::kEndpointOutside) << far;
+        EXPECT_EQ(model.refusal(points({inside}, {{0, 0, far}})), ErrorCode::kEndpointOutside) << far;
+        for (const InletRule::Kind kind : {InletRule::Kind::kPoint, InletRule::Kind::kNearest}) {
+            EndpointOptions options = points({}, {inside});
+            options.inlet_rules.emplace_back();
+            options.inlet_rules.back().kind = kind;
+            options.inlet_rules.back().point = {0, far, 0};
+            EXPECT_EQ(model.refusal(options), ErrorCode::kEndpointOutside) << far;
+        }
+    }
+}
+
 TEST(Endpoints, PointBetweenTwoLegsIsRefused) {
     const Model model = closed_hairpin();
     const PhantomTruth truth = hairpin_truth();
