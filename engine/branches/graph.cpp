@@ -1,6 +1,9 @@
-// Of the lines that run through a branch the longest stands for it: the choice depends on the lumen alone. The own part
-// of a branch is that line's between the parts of its two junctions; from there to the origins of the junctions the
-// branch is taken to be straight. Lines round the corners of a junction, their axes do not.
+// Of the lines that run through a branch the one with the larger balls at its junctions stands for it. There the lines
+// begin to turn off, and a line into a narrow side branch comes near the wall while it still is in the parent's tube:
+// as the parent's axis it would show a stenosis, and a bend towards the side branch. How far the lines go on behind the
+// junction plays a part only between equal balls. The own part of a branch is that line's between the parts of its two
+// junctions; from there to the origins of the junctions the branch is taken to be straight. Lines round the corners of
+// a junction, their axes do not.
 #include "engine/branches/graph.h"
 
 #include <algorithm>
@@ -86,7 +89,8 @@ public:
 private:
     /// An edge of the split: tracts of lines that run together.
     struct Edge {
-        std::size_t tract = 0;  // of the longest line
+        std::size_t tract = 0;           // of the line that stands for it
+        std::pair<double, double> rank;  // of that line: its balls at the junctions, its length
         std::size_t line_count = 0;
         double extent = 0;
         std::size_t branch = BranchCourse::kNone;
@@ -100,14 +104,25 @@ private:
         edges_.resize(split_.edge_count);
         for (std::size_t t = 0; t < split_.tracts.size(); ++t) {
             Edge& edge = edges_[split_.tracts[t].edge];
-            const auto length = [&](std::size_t tract) { return views_[split_.tracts[tract].line].length(); };
-            if (edge.line_count++ == 0 || length(t) > length(edge.tract)) edge.tract = t;
+            const Tract& tract = split_.tracts[t];
+            const std::pair rank{balls_at_junctions(tract), views_[tract.line].length()};
+            if (edge.line_count++ > 0 && rank <= edge.rank) continue;
+            edge.tract = t;
+            edge.rank = rank;
         }
         incident_.resize(split_.nodes.size());
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             incident_[tract_of(e).first].push_back(e);
             incident_[tract_of(e).last].push_back(e);
         }
+    }
+
+    /// Product of the radii where the own part comes to a junction; 1 where it comes to none.
+    [[nodiscard]] double balls_at_junctions(const Tract& t) const {
+        double product = 1;
+        if (split_.nodes[t.first].is_junction()) product *= views_[t.line].radius_at(t.own_from);
+        if (split_.nodes[t.last].is_junction()) product *= views_[t.line].radius_at(t.own_to);
+        return product;
     }
 
     [[nodiscard]] Vec3 end_point(std::size_t e, std::size_t node) const {

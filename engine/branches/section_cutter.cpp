@@ -132,6 +132,7 @@ SectionLoop SectionCutter::follow(const SectionPlane& plane, HalfEdge start) con
         const double a = height(plane, from(down)), b = height(plane, to(down));
         const Vec3 x = lerp(surface_.points[from(down)], surface_.points[to(down)], a / (a - b)) - plane.origin;
         loop.points.push_back({dot(x, plane.e1), dot(x, plane.e2)});
+        loop.nearest.emplace_back(a < -b ? from(down) : to(down));
         if (!surface_.cap[down / 3].is_none()) loop.wall = false;
         // The third corner tells by which of the other two edges the plane leaves.
         const HalfEdge base = 3 * (down / 3);

@@ -21,6 +21,7 @@ struct SectionPlane {
 /// Boundary of the part of the lumen that a plane cuts around its origin.
 struct SectionLoop {
     std::vector<PlanePoint> points;  ///< counter-clockwise about the normal; empty = not found
+    std::vector<SiteId> nearest;     ///< to each point, of the two sites whose edge it lies on
     SiteId site;                     ///< of the surface, next to it
     bool wall = false;               ///< all of it is wall: no triangle belongs to an extension or cap
 };

@@ -1,5 +1,8 @@
 // A walk starts from a site whose point c(p) is next to the section, or from the section before. It may come to
 // another part of the wall that the plane passes through; then the next site is tried, and in the end all triangles.
+//
+// Next to a junction a plane across a narrow or oblique branch may pass through its mouth and on through the parent:
+// the loop goes around the axis, but what it encloses is mostly the lumen of another vessel.
 #include "engine/branches/sections.h"
 
 #include <algorithm>
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTries = 6;
+constexpr double kOfOthers = 0.5;  // of a boundary, at most, is wall of other branches
 
 /// Sites of one branch by their abscissa.
 using SitesAlong = std::vector<std::pair<double, SiteId>>;
@@ -25,7 +29,7 @@ struct Section {
     double abscissa = 0;
     SectionPlane plane;
     double radius = 0;  ///< of the axis [length]
-    bool found = false, wall = false;
+    bool found = false, closed = false;
     SectionMeasures measures;
 };
 
@@ -49,10 +53,26 @@ std::vector<double> stations(const BranchLines& axes, std::size_t branch, double
     return at;
 }
 
+/// Share of a loop's length that is next to sites of other branches.
+double share_of_others(const SectionLoop& loop, const std::vector<BranchId>& branches, BranchId own) {
+    const std::size_t count = loop.points.size();
+    double others = 0, all = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const PlanePoint before = loop.points[(k + count - 1) % count], x = loop.points[k];
+        const PlanePoint after = loop.points[(k + 1) % count];
+        const double length = std::hypot(x.x - before.x, x.y - before.y) + std::hypot(after.x - x.x, after.y - x.y);
+        all += length;
+        const BranchId branch = branches[at(loop.nearest[k])];
+        if (!branch.is_none() && branch != own) others += length;
+    }
+    return others / all;
+}
+
 class BranchSections {
 public:
-    BranchSections(const SectionCutter& cutter, const BranchLines& axes, const SitesAlong& sites)
-        : cutter_(cutter), axes_(axes), sites_(sites) {}
+    BranchSections(const SectionCutter& cutter, const BranchLines& axes, const SurfaceBranches& surface,
+                   const SitesAlong& sites)
+        : cutter_(cutter), axes_(axes), surface_(surface), sites_(sites) {}
 
     std::vector<Section> run(std::size_t branch, double step) {
         std::vector<Section> sections;
@@ -67,14 +87,18 @@ public:
             section.plane = {position_at(axes_, on), e1, cross(n, e1), n};
             const SectionLoop loop = loop_at(section);
             section.found = !loop.points.empty();
-            section.wall = loop.wall;
             if (section.found) section.measures = measure_loop(loop.points);
+            section.closed = section.found && loop.wall && is_of(loop, BranchId(branch));
             sections.push_back(section);
         }
         return sections;
     }
 
 private:
+    [[nodiscard]] bool is_of(const SectionLoop& loop, BranchId branch) const {
+        return surface_.branch.empty() || share_of_others(loop, surface_.branch, branch) <= kOfOthers;
+    }
+
     SectionLoop loop_at(const Section& section) {
         SectionLoop loop = cutter_.cut(section.plane, last_);
         const auto near = std::lower_bound(sites_.begin(), sites_.end(), std::pair{section.abscissa, SiteId(0)});
@@ -89,6 +113,7 @@ private:
 
     const SectionCutter& cutter_;
     const BranchLines& axes_;
+    const SurfaceBranches& surface_;
     const SitesAlong& sites_;
     SiteId last_;
 };
@@ -120,7 +145,7 @@ void append(const Section& s, std::size_t branch, double length, SectionTable& t
     t.inscribed_diameter.push_back(2 * s.radius);
     t.circularity.push_back(value(4 * std::numbers::pi * m.area / (m.perimeter * m.perimeter)));
     t.centroid_offset.push_back(value(std::hypot(m.centroid.x, m.centroid.y)));
-    t.closed.push_back(s.found && s.wall ? 1 : 0);
+    t.closed.push_back(s.closed ? 1 : 0);
 }
 
 }  // namespace
@@ -134,7 +159,7 @@ SectionTable cut_sections(const Surface& surface, const BranchAxes& branches, co
     context.parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
             context.check_cancelled();
-            found[b] = BranchSections(cutter, branches.lines, along[b]).run(b, options.section_step);
+            found[b] = BranchSections(cutter, branches.lines, sites, along[b]).run(b, options.section_step);
         }
     });
     SectionTable table;

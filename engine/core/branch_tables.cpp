@@ -232,7 +232,9 @@ Table table_of_sections(const SectionTable& t) {
              t.inscribed_diameter)
         .add("circularity", "1", "4 pi area / perimeter^2", kOurs, t.circularity)
         .add("centroid_offset", "length", "from the point to the section's centroid", kOurs, t.centroid_offset)
-        .count("closed", "1 = its boundary is all wall; 0 = it passes an extension or cap, or was not found", t.closed)
+        .count("closed",
+               "1 = its boundary is all wall, at most half of it of other branches; 0 = it is not, or was not found",
+               t.closed)
         .take();
 }
 

@@ -53,7 +53,7 @@ struct SectionTable {
     std::vector<double> inscribed_diameter;          ///< twice the radius of the axis there [length]
     std::vector<double> circularity;                 ///< 4 pi area / perimeter^2
     std::vector<double> centroid_offset;             ///< from the point to the centroid of the section [length]
-    std::vector<std::uint8_t> closed;                ///< 1: all of it is wall
+    std::vector<std::uint8_t> closed;                ///< 1: all of it is wall, not mostly of other branches
 
     [[nodiscard]] std::size_t rows() const { return branch.size(); }
 };

@@ -59,6 +59,32 @@ TEST(Split, SideBranchHasItsOriginOnTheTrunk) {
     EXPECT_NEAR(found.table.length[2], 10, 0.1);
 }
 
+/// A narrow branch of `length` at right angles: the balls of its line follow the wall, on its way to which the line
+/// cuts the corner.
+std::vector<PlainLine> narrow_side_branch(double length) {
+    PlainLine trunk = straight({0, 0, 0}, {24, 0, 0}, 1), side = straight({0, 0, 0}, {9, 0, 0}, 1);
+    test::go_to(side, {10, 0.7, 0}, 0.3, 0.05);
+    test::go_to(side, {10, length, 0}, 0.3, 0.05);
+    trunk.target = 1;
+    side.target = 2;
+    return {trunk, side};
+}
+
+TEST(Split, LengthOfASideBranchChangesNothingOfItsParent) {
+    for (const double length : {6.0, 30.0}) {
+        const Branches found = branches_of(narrow_side_branch(length));
+        ASSERT_EQ(found.bifurcations.rows(), 1U);
+        const BifurcationTable& j = found.bifurcations;
+        const bool side_is_first = length > 15;  // the extent of the trunk's rest
+        EXPECT_NEAR(side_is_first ? j.angle_2[0] : j.angle_1[0], 0, 1e-9);
+        EXPECT_NEAR(side_is_first ? j.angle_1[0] : j.angle_2[0], 90, 1e-9);
+        EXPECT_NEAR(j.parent_diameter[0], 2, 1e-9);
+        EXPECT_NEAR(found.table.radius[0].min, 1, 1e-9) << "its axis is the trunk's";
+        EXPECT_NEAR(found.stenoses.ecst_diameter[0], 0, 1e-9);
+        EXPECT_LT(found.table.tortuosity[0], 1e-3) << "the origin is held to the corner's points";
+    }
+}
+
 TEST(Split, TreesOfManyOutletsHaveTheirBranches) {
     for (const std::size_t leaves : {1, 2, 16, 128}) {
         const Branches found = branches_of(test::forked_lines(leaves));

@@ -6,6 +6,7 @@
 
 #include "engine/branches/section_cutter.h"
 #include "tests/branches/shapes.h"
+#include "tests/stages/implicit_shape.h"
 #include "tests/stages/support.h"
 
 namespace lumenline {
@@ -107,6 +108,35 @@ TEST(Sections, EllipticTubeHasItsMeasures) {
         EXPECT_LT(t.centroid_offset[k], 0.02);
         EXPECT_EQ(t.closed[k], 1);
     }
+}
+
+TEST(Sections, ThoseThatRunOnThroughTheParentAreNotClosed) {
+    // A narrow branch that leaves a wide tube at 45 degrees: a plane across its mouth cuts the tube along an ellipse.
+    const double narrow = 0.4;
+    const Vec3 end{5, 0, 5};
+    const auto shape = [&](Vec3 x) {
+        return std::min(test::straight_tube(x, {0, 0, -9}, {0, 0, 9}, 1), test::straight_tube(x, {}, end, narrow));
+    };
+    PipelineOptions options;
+    options.endpoints.inlets = {{0, 0, -3}};
+    options.endpoints.outlets = {{0, 0, 4.6}, {4, 0, 4}};
+    const ModelRecord record =
+        test::run_pipeline(test::polygonized(shape, {-1.4, -1.3, -3}, {4, 1.3, 4.6}, 0.16), options);
+    ASSERT_TRUE(record.branches);
+    const Branches& found = *record.branches;
+    ASSERT_EQ(found.graph.branch_count(), 3U);
+    const std::size_t side = found.table.radius[1].mean < 0.5 ? 1 : 2;
+    const SectionTable& t = found.sections;
+    std::size_t of_the_parent = 0;
+    for (std::size_t k = 0; k < t.rows(); ++k) {
+        if (t.branch[k] != BranchId(side) || t.area[k] < 4 * pi * narrow * narrow) continue;
+        EXPECT_EQ(t.closed[k], 0);
+        ++of_the_parent;
+    }
+    EXPECT_GT(of_the_parent, 0U);
+    const Distribution& area = found.table.area[side];
+    EXPECT_GT(area.min / (pi * narrow * narrow), 0.95) << "of 16 corners, moved by up to a seventh of the step";
+    EXPECT_LT(area.max / (pi * narrow * narrow), 1.05);
 }
 
 TEST(Calibre, StenosisHasItsDegreeAndPlace) {
