@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "engine/condition/cgal_repair.h"
+#include "engine/condition/wall_direction.h"
 #include "engine/condition/wall_radius.h"
 #include "engine/core/text.h"
 
 // A hole in the wall and the open end of a small vessel may have equally few edges. Around the end of
 // a tube the wall runs along the loop's normal, around a hole it lies in the loop's plane: the mean
 // cosine between the normals of wall and loop is 0.7 to 1 at holes and -0.1 to 0.4 at vessel ends.
+// That fails for a hole as wide as the vessel, whose edge the wall meets from all sides; but its normal is across the
+// vessel's direction.
 //
 // CGAL triangulates the loop alone and does not know the wall: a diagonal may be an edge already,
 // as where one corner of a missing quadrilateral belongs to two triangles only. Then a vertex in
@@ -37,6 +40,7 @@ struct LoopShape {
     double flatness = 0;       // largest distance from the plane through the loop's mean, per radius
     double roundness = 0;      // area per area of the circle of the same perimeter
     double wall_cosine = 0;    // mean over the triangles that touch the loop
+    double along = 1;          // cosine between the normal and the vessel's direction; 1 = no definite direction
     double vessel_radius = 0;  // of the lumen behind it, median; 0 = not measured
 };
 
@@ -53,17 +57,16 @@ double distance_from_plane(const WallMesh& wall, const Loop& loop, Vec3 normal) 
 std::vector<LoopShape> measure_loops(const WallMesh& wall, const std::vector<Loop>& loops) {
     std::vector<LoopShape> shapes(loops.size());
     std::vector<std::uint32_t> loop_of(wall.points.size(), kDropped);
+    const std::vector<Vec3> directions = wall_directions(wall, loops);
     for (std::uint32_t i = 0; i < loops.size(); ++i) {
-        const Vec3 start = wall.points[loops[i].front()];
-        Vec3 doubled;
+        const Vec3 doubled = doubled_area(wall, loops[i]);
         double perimeter = 0;
         for (std::size_t k = 0; k < loops[i].size(); ++k) {
-            const Vec3 a = wall.points[loops[i][k]], b = wall.points[loops[i][(k + 1) % loops[i].size()]];
-            doubled += cross(a - start, b - start);
-            perimeter += distance(a, b);
+            perimeter += distance(wall.points[loops[i][k]], wall.points[loops[i][(k + 1) % loops[i].size()]]);
             loop_of[loops[i][k]] = i;
         }
         shapes[i].normal = normalized(doubled);
+        if (directions[i] != Vec3{}) shapes[i].along = dot(directions[i], shapes[i].normal);
         shapes[i].radius = std::sqrt(norm(doubled) / 2 / std::numbers::pi);
         shapes[i].flatness = distance_from_plane(wall, loops[i], shapes[i].normal) / shapes[i].radius;
         shapes[i].roundness = norm(doubled) / 2 * 4 * std::numbers::pi / (perimeter * perimeter);
@@ -217,13 +220,15 @@ void fill_holes(WallMesh& wall, WallTopology& topology, double median_edge, Stag
             ++filled;
             continue;
         }
-        if (shapes[i].wall_cosine > kSurelyHoleCosine) {
+        const bool faces_out = shapes[i].wall_cosine > kSurelyHoleCosine;
+        if (faces_out || shapes[i].along < kLeastAlong) {
             ++suspicious;
             context.warn("opening_in_wall",
                          "the opening of " + where +
                              " lies in the surface around it: rather a hole in the wall than the end of a vessel; mend "
                              "the surface if it is one",
-                         shapes[i].wall_cosine, kSurelyHoleCosine);
+                         faces_out ? shapes[i].wall_cosine : shapes[i].along,
+                         faces_out ? kSurelyHoleCosine : kLeastAlong);
         }
         topology.loops.push_back(loops[i]);
     }

@@ -237,6 +237,20 @@ TEST(Hole, TooLargeIsAnOpeningAndSuspicious) {
     EXPECT_TRUE(is_closed_manifold(result.surface));
 }
 
+TEST(Hole, AsWideAsTheVesselIsSuspicious) {
+    // Half of the way around and longer than the radius: the wall beside it faces all ways.
+    for (const double half : {1.0, 1.3}) {
+        TriangleSoup soup = round_tube(40, 81, 2, 20);
+        std::erase_if(soup.triangles, [&](const Corners& t) {
+            const Vec3 p = (1.0 / 3) * (soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]);
+            return std::fabs(p.z - 10) < 2 * half && std::fabs(std::atan2(p.y, p.x)) < half;
+        });
+        const Conditioned result = condition(soup);
+        EXPECT_EQ(result.count("opening_in_wall"), 1U);
+        EXPECT_EQ(result.surface.openings.size(), 3U);
+    }
+}
+
 TEST(Hole, ThatIsAVesselsEndStaysAnOpening) {
     // A square tube, so thin that its end has four edges.
     const Conditioned result = condition(tube(4, 60, [](std::size_t i, std::size_t k) {
