@@ -10,6 +10,7 @@
 
 #include "engine/cli/run.h"
 #include "engine/core/text.h"
+#include "io/archive/commit.h"
 #include "io/archive/read.h"
 #include "io/archive/utf8.h"
 #include "io/export/tables.h"
@@ -42,7 +43,7 @@ int run(const Request& request) {
         fmt::print(stderr, "lumenline: --model goes with --to vtp only: tables are of all models\n");
         return kUsage;
     }
-    std::filesystem::create_directories(request.directory);
+    make_directories(request.directory);
     const std::size_t files = request.format == "vtp"
                                   ? export_models(request)
                                   : export_tables(request.archive, request.directory,

@@ -21,7 +21,8 @@ void request_stop(int signal) {
 }  // namespace
 
 TriangleSoup load_task(const ModelTask& task) {
-    TriangleSoup soup = read_surface(task.surface_path);
+    // The path depends on where the program is started, and the sentence of a failure is archived.
+    TriangleSoup soup = read_surface(task.surface_path, task.identity.source_file);
     if (task.scale != 1) {
         for (Vec3& p : soup.points) p = task.scale * p;
         soup.coordinate_rounding *= task.scale;

@@ -73,7 +73,7 @@ public:
 
     int compute() {
         const StopOnSignal stop;
-        fs::create_directories(config_.archive.directory / "models");
+        make_directories(config_.archive.directory / "models");
         lease_ = take_lease(config_.archive.directory, shard_, arguments_.wait);
         if (!lease_) return kStopped;
         keep_own_shard();

@@ -21,6 +21,7 @@
 #include "engine/cli/slurm.h"
 #include "engine/cli/standard_output.h"
 #include "engine/core/text.h"
+#include "io/archive/commit.h"
 #include "io/archive/lease.h"
 
 namespace lumenline {
@@ -130,8 +131,8 @@ int submit(const SubmitArguments& arguments) {
     require_slurm();
     say_missing(config);
     require_free(config.archive.directory);
-    fs::create_directories(config.archive.directory / "models");
-    fs::create_directories(request.logs);
+    make_directories(config.archive.directory / "models");
+    make_directories(request.logs);
     if (request.tasks > 1) (void)tasks_of_shard(config.archive.directory, config.tasks, {1, request.tasks});
     const SlurmJobs jobs = submit_jobs(request, arrays);
     write_jobs(config.archive.directory, jobs);

@@ -12,6 +12,8 @@ import numpy as np
 
 import lumenline
 
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
 archive = sys.argv[1]
 measure, by = (sys.argv[2:4] + ["radius_mean", "group"][len(sys.argv[2:4]):])
 with lumenline.open(archive) as cohort:

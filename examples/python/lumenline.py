@@ -82,10 +82,13 @@ class Cohort(_Closing):
     def __getitem__(self, model_id: str) -> Model:
         try:
             return Model(self.group["models"][model_id])
-        except KeyError:
-            if model_id in self.ids:
-                raise FileNotFoundError(f"the file of model {model_id!r} is missing beside {self.group.filename}") from None
-            raise KeyError(f"no model {model_id!r}; there are {', '.join(self.ids)}") from None
+        except (KeyError, OSError, RuntimeError) as error:
+            if model_id not in self.ids:
+                raise KeyError(f"no model {model_id!r}; there are {', '.join(self.ids)}") from None
+            file = pathlib.Path(self.group.file.filename).parent / "models" / f"{model_id}.hdf"
+            if not file.exists():
+                raise FileNotFoundError(f"the file of model {model_id!r} is missing: {file}") from None
+            raise Damaged(f"{file} cannot be read: {_one_line(error)}") from None
 
     def table(self, name: str = "models"):
         """A table as a pandas.DataFrame; units and definitions of its columns are in its `attrs`.

@@ -11,6 +11,8 @@ import matplotlib.pyplot as plt
 
 import lumenline
 
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
 archive, model_id = sys.argv[1:3]
 with lumenline.open(archive) as cohort:
     model = cohort[model_id]

@@ -13,6 +13,8 @@ import numpy as np
 
 import lumenline
 
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
 archive, model_id = sys.argv[1:3]
 name = sys.argv[3] if len(sys.argv) > 3 else "geodesic_distance"
 with lumenline.open(archive) as cohort:

@@ -57,6 +57,12 @@ std::filesystem::path output_file(const std::filesystem::path& output) {
     return fs::is_symlink(fs::symlink_status(output, error)) ? target : output;
 }
 
+void make_directories(const std::filesystem::path& directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error) throw OutputError(directory, error.message());
+}
+
 void refuse_overwriting(const std::filesystem::path& output, const std::filesystem::path& other) {
     namespace fs = std::filesystem;
     if (output.empty()) return;

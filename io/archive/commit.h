@@ -27,6 +27,10 @@ std::filesystem::path temporary_of(const std::filesystem::path& file);
 /// @throws OutputError where that is a directory, a device, a pipe, or in no directory
 std::filesystem::path output_file(const std::filesystem::path& output);
 
+/// Makes a directory, and those above it, where there is none.
+/// @throws OutputError
+void make_directories(const std::filesystem::path& directory);
+
 /// Refuses an `output` that is `other`, an input or another output of the command, or that would damage an archive: the
 /// index or a model of the one that is `other` or in whose directory `other` lies.
 /// @throws OutputTaken

@@ -76,8 +76,8 @@ struct Bytes {
     std::size_t size = 0;
 };
 
-[[noreturn]] void fail_unreadable(const std::string& path, const std::string& why) {
-    throw StageError(Stage::kLoad, ErrorCode::kFileUnreadable, path + ": expected a readable file, found that " + why);
+[[noreturn]] void fail_unreadable(const std::string& name, const std::string& why) {
+    throw StageError(Stage::kLoad, ErrorCode::kFileUnreadable, name + ": expected a readable file, found that " + why);
 }
 
 /// What changes with every write to an open file, and when another one is renamed over it: it loses a link then.
@@ -90,37 +90,38 @@ FileVersion version_of(std::FILE* file) {
             status.st_ctim.tv_nsec};
 }
 
-Bytes read_bytes(const std::string& path) {
+Bytes read_bytes(const std::string& path, const std::string& name) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (error) fail_unreadable(path, "it cannot be opened (" + error.message() + ")");
-    if (!std::filesystem::exists(status)) fail_unreadable(path, "it does not exist");
-    if (!std::filesystem::is_regular_file(status)) fail_unreadable(path, "it is a directory or device");
+    if (error) fail_unreadable(name, "it cannot be opened (" + error.message() + ")");
+    if (!std::filesystem::exists(status)) fail_unreadable(name, "it does not exist");
+    if (!std::filesystem::is_regular_file(status)) fail_unreadable(name, "it is a directory or device");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) fail_unreadable(path, "its size is unknown (" + error.message() + ")");
+    if (error) fail_unreadable(name, "its size is unknown (" + error.message() + ")");
     const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-    if (!file) fail_unreadable(path, "it cannot be opened (" + std::string(std::strerror(errno)) + ")");
+    if (!file) fail_unreadable(name, "it cannot be opened (" + std::string(std::strerror(errno)) + ")");
     const FileVersion before = version_of(file.get());
     Bytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
     const std::size_t got = std::fread(bytes.data.get(), 1, size, file.get());
     if (got != size || std::fgetc(file.get()) != EOF || std::ferror(file.get()) != 0) {
-        fail_unreadable(path, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
+        fail_unreadable(name, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
                                   " or the file changed meanwhile");
     }
     if (version_of(file.get()) != before)
-        fail_unreadable(path, "it changed while it was read: run again when it is complete");
+        fail_unreadable(name, "it changed while it was read: run again when it is complete");
     return bytes;
 }
 
 }  // namespace
 }  // namespace mesh
 
-TriangleSoup read_surface(const std::string& path) {
-    const mesh::Bytes bytes = mesh::read_bytes(path);
+TriangleSoup read_surface(const std::string& path, const std::string& name) {
+    const std::string& shown = name.empty() ? path : name;
+    const mesh::Bytes bytes = mesh::read_bytes(path, shown);
     const std::string_view view(bytes.data.get(), bytes.size);
     try {
-        TriangleSoup soup = mesh::parse_surface({path, view});
-        soup.source_file = path;
+        TriangleSoup soup = mesh::parse_surface({shown, view});
+        soup.source_file = shown;
         soup.source_sha256 = sha256_hex(view);
         return soup;
     } catch (const StageError& error) {

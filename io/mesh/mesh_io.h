@@ -27,8 +27,9 @@ namespace lumenline {
 ///         infinite; kTooLarge: more than 2^31 - 1 points or triangles. The sentence names the file and the
 ///         line (text) or byte (binary). A text file without counts (OBJ, several STL solids) that was cut
 ///         between two of its faces or solids cannot be told from a smaller one.
+/// @param name  what the sentence calls the file, and TriangleSoup::source_file; empty = its path
 /// @cost O(bytes): one pass over the file in memory, and one for its SHA-256
-TriangleSoup read_surface(const std::string& path);
+TriangleSoup read_surface(const std::string& path, const std::string& name = {});
 
 /// Writes a surface in the format of the extension of `path`: .stl (binary, coordinates rounded to float32),
 /// .ply (binary little-endian, double), .obj and .off (shortest decimals that read back as the same double),

@@ -4,9 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <sstream>
 
 #include "io/archive/handle.h"
@@ -62,15 +60,6 @@ void replace_attribute(hid_t file, const char* name, const std::string& text) {
     const hdf::Handle attribute(
         H5Acreate2(file, name, type.get(), hdf::extent(0, nullptr).get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
     hdf::checked(H5Awrite(attribute.get(), type.get(), text.c_str()), name);
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
-    std::ofstream(file, std::ios::binary) << bytes;
 }
 
 TEST(Damage, AttributesOfWhichOneCannotBeReadAreRefused) {

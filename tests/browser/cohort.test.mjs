@@ -50,6 +50,9 @@ test("words and comparisons filter", async () => {
     ["age>=61 age<=70", ["stenosis", "tree"]],
     ["group!=control status!=failed", ["stenosis", "tree"]],
     ["remark:narr", ["stenosis"]],
+    ["age=", ["broken"]],
+    ["remark!=", ["stenosis", "torus", "tree"]],
+    ["remark!=narrow", ["torus", "tree"]],
     ["no such thing", []],
   ]) {
     await search(text);

@@ -48,5 +48,20 @@ TEST(Determinism, ThreadsWorkersAndShardsChangeNoDataset) {
             }
 }
 
+TEST(Determinism, FolderThatTheProgramIsStartedInChangesNoDataset) {
+    const fs::path folder = small_cohort();
+    write_text(folder / "junk.stl", "no surface\n");
+    write_text(folder / "cohort.yaml", read_text(folder / "cohort.yaml") +
+                                           "  - {id: junk, surface: junk.stl}\n"
+                                           "  - {id: lost, surface: missing.stl}\n");
+    ASSERT_EQ(run_cohort(folder).status, 1);
+    const auto expected = archive_contents(folder / "results");
+    for (const fs::path& cohort : {folder / "cohort.yaml", folder.filename() / "cohort.yaml"}) {
+        fs::remove_all(folder / "results");
+        ASSERT_EQ(run_lumenline({"run", cohort.string()}, folder.parent_path()).status, 1);
+        EXPECT_EQ(differences(expected, archive_contents(folder / "results")), std::vector<std::string>{}) << cohort;
+    }
+}
+
 }  // namespace
 }  // namespace lumenline::cli_test

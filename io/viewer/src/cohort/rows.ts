@@ -9,6 +9,9 @@ export function measures(table: Table): Column[] {
   return table.columns.filter((column) => column.numbers?.some((x) => Number.isFinite(x)));
 }
 
+/** "n/a" says in a table what an empty cell does. */
+const isMissing = (text: string): boolean => text === "" || text === "n/a";
+
 const kNoGrouping = /^(source_|inputs_|id$)/;
 const kMostGroups = 40;
 
@@ -16,7 +19,7 @@ const kMostGroups = 40;
 export function groupings(table: Table, most = 12): Column[] {
   return table.columns.filter((column) => {
     if (!column.texts || kNoGrouping.test(column.name)) return false;
-    const values = new Set(column.texts);
+    const values = new Set(column.texts.map((text) => (isMissing(text) ? "" : text)));
     return values.size >= 2 && values.size <= (column.name === "group" ? kMostGroups : Math.min(most, Math.max(2, table.rows / 2)));
   });
 }
@@ -28,9 +31,9 @@ export interface Groups {
 
 /** The groups of a column in the order of their names; one group without a column. */
 export function groupsOf(table: Table, column: Column | undefined): Groups {
-  const texts = column?.texts;
+  const texts = column?.texts?.map((text) => (isMissing(text) ? "" : text));
   if (!texts) return { names: ["all"], of: new Int32Array(table.rows) };
-  const names = [...new Set(texts)].sort((a, b) => Number(a === "") - Number(b === "") || a.localeCompare(b));
+  const names = [...new Set(texts)].sort((a, b) => Number(a === "") - Number(b === "") || a.localeCompare(b, "en", { numeric: true }));
   const index = new Map(names.map((name, i) => [name, i]));
   return { names: names.map((name) => name || "(none)"), of: Int32Array.from(texts, (text) => index.get(text)!) };
 }
@@ -52,21 +55,31 @@ function named(table: Table, name: string): Column | undefined {
   );
 }
 
+/** The column's numbers; those of texts, if all that say something are numbers. */
+function numbersOf(column: Column): ArrayLike<number> | null {
+  if (column.numbers) return column.numbers;
+  const numbers = column.texts!.map((text) => (isMissing(text) ? NaN : Number(text)));
+  return column.texts!.every((text, row) => isMissing(text) || !Number.isNaN(numbers[row]!)) ? numbers : null;
+}
+
+/** What is missing meets no condition but the one that asks for it: `column=`. */
 function comparison(column: Column, sign: string, text: string): Test | null {
-  const { numbers, texts } = column;
-  if (numbers) {
+  const { texts } = column;
+  const isKnown: Test = texts ? (row) => !isMissing(texts[row]!) : (row) => !Number.isNaN(column.numbers![row]!);
+  if (isMissing(text) && /^(=|:|!=)$/.test(sign)) return (row) => isKnown(row) === (sign === "!=");
+  if (!texts || /^[<>]/.test(sign)) {
+    const numbers = numbersOf(column);
     const limit = Number(text);
-    if (text === "" || Number.isNaN(limit)) return null;
+    if (!numbers || text === "" || Number.isNaN(limit)) return null;
     if (sign === "<") return (row) => numbers[row]! < limit;
     if (sign === ">") return (row) => numbers[row]! > limit;
     if (sign === "<=") return (row) => numbers[row]! <= limit;
     if (sign === ">=") return (row) => numbers[row]! >= limit;
-    return (row) => (numbers[row] === limit) === (sign !== "!=");
+    return (row) => isKnown(row) && (numbers[row] === limit) === (sign !== "!=");
   }
-  if (!texts || sign.startsWith("<") || sign.startsWith(">")) return null;
   const wanted = text.toLowerCase();
   if (sign === ":") return (row) => texts[row]!.toLowerCase().includes(wanted);
-  return (row) => (texts[row]!.toLowerCase() === wanted) === (sign !== "!=");
+  return (row) => isKnown(row) && (texts[row]!.toLowerCase() === wanted) === (sign !== "!=");
 }
 
 export interface Query {
@@ -108,6 +121,6 @@ export function sortRows(rows: number[], column: Column | undefined, descending:
       return missing || sign * (x - y) || a - b;
     }
     const [x, y] = [texts![a]!, texts![b]!];
-    return Number(x === "") - Number(y === "") || sign * collator.compare(x, y) || a - b;
+    return Number(isMissing(x)) - Number(isMissing(y)) || sign * collator.compare(x, y) || a - b;
   });
 }
