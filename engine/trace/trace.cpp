@@ -295,7 +295,8 @@ private:
         const Vec3 direction = normalized(side.onward.points[ahead] - path.points[behind]);
         for (std::size_t i = 1; i < side.onward.size() && within(side.onward, i, kBeyondMeeting * radius); ++i)
             path.append(side.onward.points[i], side.onward.radius[i]);
-        auto line = refine_line(path, stop_at(from), {meeting, direction, true, false}, *refiner_, verifier_, why);
+        const LineStop stop{meeting, direction, true, false, direction};
+        auto line = refine_line(path, stop_at(from), stop, *refiner_, verifier_, why);
         if (!line) return line;
         line->path_to_line.resize(side.whole.size());
         line->path_to_line.back() = line->line.abscissa.back();
