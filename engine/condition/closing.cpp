@@ -20,6 +20,7 @@ constexpr std::size_t kMostSites = (std::size_t{1} << 31) / 3;  // half-edges ar
 struct Closing {
     Patch patch;
     double extension_length = 0;
+    Vec3 axis;
 };
 
 std::string name_of(const OpeningPlan& plan) {
@@ -27,7 +28,7 @@ std::string name_of(const OpeningPlan& plan) {
 }
 
 Closing close_plainly(const OpeningPlan& plan, StageContext& context) {
-    if (auto patch = cap_opening(plan)) return {std::move(*patch), 0};
+    if (auto patch = cap_opening(plan)) return {std::move(*patch), 0, plan.frame.normal};
     auto patch = triangulate_loop(plan.corners, true);
     if (!patch)
         refuse(ErrorCode::kOpenBoundary, name_of(plan) + " crosses itself and cannot be capped; repair its edge");
@@ -36,15 +37,16 @@ Closing close_plainly(const OpeningPlan& plan, StageContext& context) {
                      " overlaps itself seen along its normal and was capped without an extension: cut the vessel's end "
                      "anew, across it",
                  static_cast<double>(plan.corners.size()));
-    return {std::move(*patch), 0};
+    return {std::move(*patch), 0, plan.frame.normal};
 }
 
 Closing close_opening(const OpeningPlan& plan, double wanted, bool blocked, const Obstacles& obstacles,
                       StageContext& context) {
     if (wanted <= 0 || !is_simple_polygon(plan.outline)) return close_plainly(plan, context);
+    const OpeningPlan seen = along_axis(plan);
     for (const double share : {1.0, 0.5}) {
-        if (blocked || obstacles.in_the_way(plan, share * wanted)) continue;
-        auto patch = extend_opening(plan, share * wanted);
+        if (blocked || obstacles.in_the_way(seen, share * wanted)) continue;
+        auto patch = extend_opening(seen, share * wanted);
         if (!patch) {
             context.warn("crooked_opening",
                          name_of(plan) +
@@ -57,7 +59,7 @@ Closing close_opening(const OpeningPlan& plan, double wanted, bool blocked, cons
             context.warn("extension_shortened",
                          "something lies before " + name_of(plan) + ", which was extended by half the usual length",
                          share * wanted, wanted);
-        return {std::move(*patch), plan.highest + share * wanted};
+        return {std::move(*patch), seen.highest + share * wanted, seen.axis};
     }
     context.warn("extension_blocked",
                  "something lies close before " + name_of(plan) +
@@ -107,7 +109,7 @@ ClosedSurface close_wall(const WallMesh& wall, const std::vector<std::uint32_t>&
         const Closing closing = close_opening(plan, extension_radii * plan.radius, blocked[i] != 0, obstacles, context);
         obstacles.add(plan, closing.patch);
         append_patch(closed, plan.loop, closing.patch, OpeningId(i));
-        Opening opening{plan.frame.origin, plan.frame.normal, plan.radius, closing.extension_length, {}};
+        Opening opening{plan.frame.origin, plan.frame.normal, closing.axis, plan.radius, closing.extension_length, {}};
         for (const std::uint32_t v : plan.loop) opening.loop.emplace_back(v);
         closed.surface.openings.push_back(std::move(opening));
     }

@@ -10,7 +10,7 @@ namespace lumenline {
 /// Makes a closed, oriented, manifold surface of the triangles of a file.
 ///
 /// Welds, drops degenerate and duplicate triangles, orients, splits what is not manifold, takes off flat
-/// caps if asked to (flat_caps.h), fills tiny holes, extends every other opening along its normal and closes
+/// caps if asked to (flat_caps.h), fills tiny holes, extends every other opening along its vessel and closes
 /// it with a refined cap, turns the normals outward, and verifies the result. Wall sites come first, in the
 /// order of the input; sites and triangles of the wall keep their coordinates bit for bit.
 ///

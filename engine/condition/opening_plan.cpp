@@ -5,18 +5,32 @@
 #include <numbers>
 #include <string>
 
+#include "engine/condition/cap.h"
+#include "engine/condition/wall_direction.h"
 #include "engine/core/text.h"
 
 // The normal is that of the loop's area vector, which is independent of the choice of origin and
 // points out of the lumen because the loop runs against its wall triangles. All vectors are taken
 // from a vertex of the loop, so that nothing is lost far from the origin.
+//
+// An extension along the normal of an oblique opening would bend the vessel there, and with it the
+// line and its radius for a radius behind the opening. The direction of the wall is that of the vessel a third of
+// a radius behind the opening: where it differs from the normal by no more than vessels bend on that way, the normal
+// is the better of the two.
 
 namespace lumenline {
 namespace {
 
 constexpr double kLeastRoundness = 1e-3;  // area per area of the circle of the same perimeter
 constexpr double kSameArea = 1e-9;        // radii closer than this share count as equal
+constexpr double kAcross = 0.985;         // cosine between normal and direction of what counts as cut across
 constexpr double kMostUneven = 3;         // ratio of the edge used and the loop's mean side, either way
+
+void turn_to(OpeningPlan& plan, Vec3 normal) {
+    plan.frame.normal = normal;
+    plan.frame.u = any_perpendicular(normal);
+    plan.frame.v = cross(normal, plan.frame.u);
+}
 
 void measure_plane(OpeningPlan& plan) {
     const std::vector<Vec3>& p = plan.corners;
@@ -36,9 +50,7 @@ void measure_plane(OpeningPlan& plan) {
                                              " of the circle of its length (limit " + short_text(kLeastRoundness) +
                                              "): a slit or a loop that crosses itself; repair the surface there");
     plan.radius = std::sqrt(area / std::numbers::pi);
-    plan.frame.normal = normalized(doubled);
-    plan.frame.u = any_perpendicular(plan.frame.normal);
-    plan.frame.v = cross(plan.frame.normal, plan.frame.u);
+    turn_to(plan, normalized(doubled));
 
     // Centroid of the triangles from `start`, weighted by their signed share of the area.
     Vec3 weighted;
@@ -49,7 +61,7 @@ void measure_plane(OpeningPlan& plan) {
     plan.frame.origin = start + (1 / (2 * area)) * weighted;
 }
 
-void project_loop(OpeningPlan& plan) {
+void centre_plane(OpeningPlan& plan) {
     // The plane's height is the mean along the loop's length: the area centroid of a crooked loop
     // depends on the vertex the triangles start from.
     const std::size_t n = plan.corners.size();
@@ -60,11 +72,24 @@ void project_loop(OpeningPlan& plan) {
         perimeter += distance(a, b);
     }
     plan.frame.origin += weighted / perimeter * plan.frame.normal;
+}
+
+void project_loop(OpeningPlan& plan) {
+    plan.outline.clear();
+    plan.heights.clear();
     for (const Vec3& p : plan.corners) {
         plan.outline.push_back(plan.frame.project(p));
         plan.heights.push_back(plan.frame.height(p));
     }
     plan.highest = *std::max_element(plan.heights.begin(), plan.heights.end());
+}
+
+void choose_axis(OpeningPlan& plan, Vec3 direction) {
+    plan.axis = plan.frame.normal;
+    const double cosine = dot(direction, plan.frame.normal);
+    if (cosine < kLeastAlong || cosine > kAcross) return;
+    plan.axis = direction;
+    if (!is_simple_polygon(along_axis(plan).outline)) plan.axis = plan.frame.normal;
 }
 
 double mean_side(const std::vector<Vec3>& loop) {
@@ -119,16 +144,27 @@ void sort_openings(std::vector<OpeningPlan>& plans) {
 
 std::vector<OpeningPlan> plan_openings(const WallMesh& wall, const std::vector<Loop>& loops) {
     std::vector<OpeningPlan> plans(loops.size());
+    const std::vector<Vec3> directions = wall_directions(wall, loops);
     for (std::size_t i = 0; i < loops.size(); ++i) {
         OpeningPlan& plan = plans[i];
         plan.loop = loops[i];
         for (const std::uint32_t v : plan.loop) plan.corners.push_back(wall.points[v]);
         measure_plane(plan);
+        centre_plane(plan);
         project_loop(plan);
+        choose_axis(plan, directions[i]);
     }
     measure_edges(wall, plans);
     sort_openings(plans);
     return plans;
+}
+
+OpeningPlan along_axis(const OpeningPlan& plan) {
+    OpeningPlan seen = plan;
+    if (plan.axis == plan.frame.normal) return seen;
+    turn_to(seen, plan.axis);
+    project_loop(seen);
+    return seen;
 }
 
 }  // namespace lumenline

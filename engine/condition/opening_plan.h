@@ -14,6 +14,7 @@ struct OpeningPlan {
     Loop loop;
     std::vector<Vec3> corners;  ///< of the loop
     Frame frame;                ///< origin = area centroid in the best-fit plane, normal out of the lumen
+    Vec3 axis;                  ///< unit: the vessel's direction, or the normal where they differ little
     double radius = 0;          ///< of the circle of the loop's area [length]
     double edge = 0;  ///< mean edge of the wall near the loop, within a factor three of the loop's own [length]
     std::vector<Vec2> outline;    ///< the loop projected, counter-clockwise
@@ -26,6 +27,9 @@ struct OpeningPlan {
 /// depend on the order of triangles.
 /// @throws StageError kOpenBoundary for a loop that encloses no area
 std::vector<OpeningPlan> plan_openings(const WallMesh& wall, const std::vector<Loop>& loops);
+
+/// The opening as seen along its axis: an extension of this plan continues the vessel where it was cut obliquely.
+OpeningPlan along_axis(const OpeningPlan& plan);
 
 /// Rings along the normal to `length` above the highest loop vertex, the last planar, and a refined cap.
 /// @returns nothing when no ring along the loop is a simple polygon

@@ -25,6 +25,7 @@ struct Seed {
 struct Endpoint {
     Vec3 point;         ///< centre of the opening, the given point, or the axis inside of a tip [length]
     Vec3 normal;        ///< unit, out of the lumen; zero for a given point
+    Vec3 axis;          ///< unit, of the lumen beyond an opening, out of it; not the normal where it was cut obliquely
     double radius = 0;  ///< of the opening's circle of equal area, or the ball radius at a point or tip [length]
     EndpointKind kind = EndpointKind::kBoundary;
     EndpointRole role = EndpointRole::kOutlet;

@@ -13,12 +13,13 @@ namespace lumenline {
 /// Where a site comes from.
 enum class SiteOrigin : std::uint8_t { kWall = 0, kExtension = 1, kCap = 2 };
 
-/// An opening of the lumen: a boundary loop of the input, extended along its normal and capped.
+/// An opening of the lumen: a boundary loop of the input, extended along the vessel and capped.
 struct Opening {
     Vec3 point;                   ///< area centroid of the loop in its best-fit plane [length]
-    Vec3 normal;                  ///< unit, out of the lumen
+    Vec3 normal;                  ///< unit, of that plane, out of the lumen
+    Vec3 axis;                    ///< unit, of the extension, out of the lumen; the normal if it was cut across
     double radius = 0;            ///< of the circle of the loop's area [length]
-    double extension_length = 0;  ///< how far the lumen was extended beyond the plane; 0 = plain cap [length]
+    double extension_length = 0;  ///< how far the lumen was extended beyond the point; 0 = plain cap [length]
     std::vector<SiteId> loop;     ///< the boundary sites, in order around the opening
     bool flat_cap = false;        ///< the input had a flat cap here, which was taken off
 };

@@ -15,18 +15,18 @@ constexpr double kRivalShare = 0.1;     // of the local radius
 constexpr double kOffAxisShare = 0.1;   // of the local radius, beyond which another anchor is looked for
 constexpr double kFarFromAxis = 1;      // of the local radius, beyond which the user is told
 
-/// Least distance from the opening's centre to its boundary loop.
+/// Least distance from the opening's axis to its boundary loop.
 double inner_radius(const Surface& surface, const Opening& opening) {
     double least = opening.radius;
     for (const SiteId s : opening.loop) {
         const Vec3 d = surface.points[at(s)] - opening.point;
-        least = std::min(least, norm(d - dot(d, opening.normal) * opening.normal));
+        least = std::min(least, norm(d - dot(d, opening.axis) * opening.axis));
     }
     return least;
 }
 
 /// The balls on the axis of a capped tube reach its cap from one inner radius before it. The anchor
-/// is halfway between that place and the opening's plane, or at that place if it lies within.
+/// is halfway between that place and the opening's centre, or at that place if it lies within.
 double anchor_height(const Surface& surface, const Opening& opening) {
     const double reach = opening.extension_length - inner_radius(surface, opening);
     return reach > 0 ? 0.5 * reach : reach;
@@ -53,6 +53,7 @@ Endpoint end_of_opening(const Surface& surface, OpeningId id) {
     Endpoint e;
     e.point = opening.point;
     e.normal = opening.normal;
+    e.axis = opening.axis;
     e.radius = opening.radius;
     e.kind = opening.flat_cap ? EndpointKind::kCap : EndpointKind::kBoundary;
     e.opening = id;
@@ -62,7 +63,7 @@ Endpoint end_of_opening(const Surface& surface, OpeningId id) {
 void anchor_end(const Surface& surface, const VoronoiComplex& complex, Endpoint& e, StageContext& context) {
     if (e.opening.is_none()) return;
     const Opening& opening = surface.openings[at(e.opening)];
-    const Vec3 axis_point = opening.point + anchor_height(surface, opening) * opening.normal;
+    const Vec3 axis_point = opening.point + anchor_height(surface, opening) * opening.axis;
     anchor_at_point(surface, complex, nearest_on_complex(surface, complex, axis_point), e);
     // The centroid of a concave or lopsided section is not on its medial axis: then take the deepest ball around it.
     if (distance(e.anchor, axis_point) > kOffAxisShare * e.anchor_radius) {

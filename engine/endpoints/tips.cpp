@@ -278,8 +278,8 @@ private:
     [[nodiscard]] bool is_opening(Vertex v) const {
         const Vec3 x = complex_.vertices[v];
         return std::any_of(surface_.openings.begin(), surface_.openings.end(), [&](const Opening& o) {
-            const double height = std::clamp(dot(x - o.point, o.normal), 0.0, o.extension_length);
-            return distance(x, o.point + height * o.normal) < kOpeningRadii * o.radius;
+            const double height = std::clamp(dot(x - o.point, o.axis), 0.0, o.extension_length);
+            return distance(x, o.point + height * o.axis) < kOpeningRadii * o.radius;
         });
     }
 

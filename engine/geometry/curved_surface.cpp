@@ -13,7 +13,7 @@ namespace {
 constexpr int kMaxSteps = 8;
 constexpr double kConverged = 1e-5;    // of the edge: the last step; slopes of the distance need it, distances less
 constexpr double kLeastStretch = 0.5;  // of 1 - curvature x distance: below it, near a focal point, any foot will do
-constexpr double kFlatCap = 0.9;       // cosine between a cap's facets and the opening's normal
+constexpr double kFlatCap = 0.9;       // cosine between a cap's facets and the opening's axis
 
 /// Barycentric weights moved into the triangle.
 void clamp(std::array<double, 3>& weight) {
@@ -43,7 +43,7 @@ CurvedSurface::CurvedSurface(const Surface& surface, const SurfaceDistance& flat
         const Opening& opening = surface.openings[at(surface.cap[i])];
         const auto t = static_cast<std::uint32_t>(i);
         const Vec3 n = normalized(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
-        const bool flat_cap = opening.extension_length <= 0 || dot(n, opening.normal) > kFlatCap;
+        const bool flat_cap = opening.extension_length <= 0 || dot(n, opening.axis) > kFlatCap;
         part_[i] = flat_cap ? Part::kCap : Part::kExtension;
     }
     for (std::size_t s = 0; s < sites; ++s) offsets_[s + 1] += offsets_[s];

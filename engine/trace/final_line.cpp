@@ -28,7 +28,7 @@ double Graph::operator()(double at) const {
 
 LineStop stop_at(const Endpoint& endpoint) {
     const bool opening = !endpoint.opening.is_none();
-    return {endpoint.point, endpoint.normal, opening, opening};
+    return {endpoint.point, endpoint.normal, opening, opening, endpoint.axis};
 }
 
 FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_front, const LineCheck& check) {
@@ -46,7 +46,7 @@ FinalLine unrefined_line(const Polyline& whole, const Polyline& cut, double cut_
 
 std::optional<FinalLine> refine_line(const Polyline& path, const LineStop& from, const LineStop& to,
                                      MedialRefiner& refiner, LineVerifier& verifier, std::string& why) {
-    const LineEnd start{from.free, -from.normal}, end{to.free, to.normal};
+    const LineEnd start{from.free, -from.axis}, end{to.free, to.axis};
     const RefinedLine refined = refiner.refine(path, start, end);
     if (refined.line.size() < 2) {
         why = "not be found, for want of length or of a step that improves it";

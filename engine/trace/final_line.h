@@ -38,7 +38,8 @@ inline constexpr double kSharpestTurn = 0.5;  // cosine
 struct LineStop {
     Vec3 point, normal;  ///< a plane across the line, the normal out of it
     bool cut = false;    ///< the line goes on beyond the plane and is cut there
-    bool free = false;   ///< before that its end moves in the plane's direction; else it stays
+    bool free = false;   ///< before that its end moves across `axis`; else it stays
+    Vec3 axis;           ///< of the lumen there, unit, out of the line; for free ends
 };
 /// At an opening the plane cuts the line; elsewhere it ends at the anchor.
 LineStop stop_at(const Endpoint& endpoint);

@@ -13,6 +13,7 @@
 
 #include "engine/core/text.h"
 #include "engine/geometry/edge_update.h"
+#include "engine/trace/coverage.h"
 #include "engine/trace/final_line.h"
 #include "engine/trace/join.h"
 #include "engine/trace/loops.h"
@@ -25,10 +26,9 @@ namespace lumenline {
 
 namespace {
 
-constexpr double kMinStep = 1e-3;         // of the ball radius, between points of a path
-constexpr double kUnreachedWall = 0.005;  // of the wall's sites
-constexpr double kUndersampled = 0.05;    // (R - clearance) / R
-constexpr double kBeyondMeeting = 3;      // of the ball radius: what a loop's side is refined with beyond its end
+constexpr double kMinStep = 1e-3;       // of the ball radius, between points of a path
+constexpr double kUndersampled = 0.05;  // (R - clearance) / R
+constexpr double kBeyondMeeting = 3;    // of the ball radius: what a loop's side is refined with beyond its end
 
 /// Arrival time at a target's anchor: the least over the vertices of the polygons that hold it.
 double arrival_at(const ArrivalField& field, const Endpoint& target) {
@@ -108,7 +108,7 @@ public:
 
     bool is_inside(const ComplexPath& path) { return verifier_.check(polyline_of(complex_, path)).inside; }
 
-    [[nodiscard]] const std::vector<LumenLoop>& loops() const { return lines_.loops; }
+    [[nodiscard]] const Centerlines& lines() const { return lines_; }
 
     Centerlines finish() {
         if (lines_.line_count() == 0)
@@ -295,7 +295,8 @@ private:
         const Vec3 direction = normalized(side.onward.points[ahead] - path.points[behind]);
         for (std::size_t i = 1; i < side.onward.size() && within(side.onward, i, kBeyondMeeting * radius); ++i)
             path.append(side.onward.points[i], side.onward.radius[i]);
-        auto line = refine_line(path, stop_at(from), {meeting, direction, true, false}, *refiner_, verifier_, why);
+        const LineStop stop{meeting, direction, true, false, direction};
+        auto line = refine_line(path, stop_at(from), stop, *refiner_, verifier_, why);
         if (!line) return line;
         line->path_to_line.resize(side.whole.size());
         line->path_to_line.back() = line->line.abscissa.back();
@@ -334,28 +335,6 @@ private:
     Vec3 gap_at_;
 };
 
-/// Says where the lumen was not reached from any source: vessels that hang on it by no Voronoi edge,
-/// or components without an inlet.
-void report_unreached_wall(const Surface& surface, const VoronoiComplex& complex,
-                           std::span<const std::shared_ptr<const ArrivalField>> fields, StageContext& context) {
-    std::size_t wall = 0, unreached = 0;
-    Vec3 place;
-    for (std::size_t i = 0; i < surface.site_count(); ++i) {
-        if (surface.origin[i] != SiteOrigin::kWall) continue;
-        ++wall;
-        const VoronoiVertexId pole = complex.pole[i];
-        const auto reaches = [&](const auto& f) { return f->time[at(pole)] < std::numeric_limits<double>::infinity(); };
-        if (!pole.is_none() && std::any_of(fields.begin(), fields.end(), reaches)) continue;
-        if (unreached++ == 0) place = surface.points[i];
-    }
-    const double share = wall > 0 ? static_cast<double>(unreached) / static_cast<double>(wall) : 0;
-    if (share > kUnreachedWall)
-        context.warn("wall_unreached",
-                     short_text(100 * share, 3) + " % of the wall, the first of it at " + short_text(place) +
-                         ", belongs to parts of the lumen that no front reached and that have no lines: give them an inlet",
-                     share, kUnreachedWall);
-}
-
 }  // namespace
 
 Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& complex, const Endpoints& endpoints,
@@ -387,9 +366,9 @@ Centerlines trace_centerlines(const Surface& surface, const VoronoiComplex& comp
         const LoopSearch found = find_loops(complex, endpoints, fields, network ? Fronts::kOfAll : Fronts::kOfOneSource,
                                             inside, context);
         for (const LoopPath& loop : found.paths) collector.add(loop);
-        report_loops(surface, collector.loops(), found.between_sources, network, context);
+        report_loops(surface, collector.lines().loops, found.between_sources, network, context);
     }
-    report_unreached_wall(surface, complex, fields, context);
+    report_coverage(surface, complex, endpoints, fields, collector.lines(), context);
     return collector.finish();
 }
 

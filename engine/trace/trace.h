@@ -23,8 +23,8 @@ namespace lumenline {
 /// of them has to be left out both are.
 ///
 /// A target that no front reached, and a line that would leave the lumen, are errors of that target
-/// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced. Parts of
-/// the wall that no front reached are a warning (wall_unreached).
+/// (diagnostics target_unreached, line_leaves_lumen): the line is left out, never replaced. What of
+/// the lumen and of the inlets has no line is a warning (coverage.h).
 /// @param fields  one per source, each with its source set
 /// @returns lines ordered by target, then source; after them those of loops, in the order of the loops
 /// @throws StageError kNoLineTraced when not one target has a line

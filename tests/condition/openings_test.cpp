@@ -57,8 +57,44 @@ TEST(Opening, CutObliquelyHasTheCutsPlane) {
     EXPECT_NEAR(distance(opening.normal, normalized({-1, 0, 1})), 0, 1e-12);
     EXPECT_NEAR(distance(opening.point, {0, 0, 10}), 0, 1e-12);
     EXPECT_NEAR(opening.radius, regular_polygon_radius(24, 1) * std::pow(2, 0.25), 1e-12);
-    EXPECT_NEAR(opening.extension_length, 1.2 * opening.radius, 1e-12);
     EXPECT_EQ(result.warnings(), 0U);
+}
+
+TEST(Opening, CutObliquelyIsExtendedAlongTheTube) {
+    const double inner = std::cos(pi / 24);  // of the polygon's sides, per radius
+    for (const double slope : {0.3, 1.0, 2.0}) {
+        const Conditioned result = condition(shaped_tube(24, 41, 10, circle, [=](Vec2 q) { return slope * q.x; }));
+        expect_sound(result);
+        const Opening& opening = upper(result.surface);
+        EXPECT_NEAR(distance(opening.axis, {0, 0, 1}), 0, 1e-12);
+        EXPECT_NEAR(opening.extension_length, slope + 1.2 * opening.radius, 1e-12);
+        for (std::size_t s = 0; s < result.surface.site_count(); ++s) {
+            const Vec3 p = result.surface.points[s];
+            if (result.surface.origin[s] != SiteOrigin::kExtension) continue;
+            EXPECT_GT(std::hypot(p.x, p.y), inner - 1e-12);
+            EXPECT_LT(std::hypot(p.x, p.y), 1 + 1e-3);  // as the smooth curve through the corners
+        }
+    }
+}
+
+TEST(Opening, CutAcrossIsExtendedAlongItsNormal) {
+    // The last also bends: on the way of a radius by 19 degrees.
+    const TriangleSoup straight = shaped_tube(24, 41, 10, circle, level);
+    const TriangleSoup bent = tube(24, 41, [](std::size_t i, std::size_t k) {
+        const double a = 2 * pi * static_cast<double>(i) / 24, turn = pi / 40 * static_cast<double>(k);
+        return Vec3{(3 + std::cos(a)) * std::cos(turn) - 3, std::sin(a), (3 + std::cos(a)) * std::sin(turn)};
+    });
+    for (const TriangleSoup& soup : {straight, bent})
+        for (const Opening& opening : condition(soup).surface.openings) EXPECT_EQ(opening.axis, opening.normal);
+}
+
+TEST(Opening, OfAWideFunnelIsExtendedAlongItsNormal) {
+    // Of 45 degrees: its normals are across no direction.
+    const Conditioned result = condition(tube(24, 21, [](std::size_t i, std::size_t k) {
+        const double a = 2 * pi * static_cast<double>(i) / 24, z = 0.1 * static_cast<double>(k);
+        return Vec3{(1 + z) * std::cos(a), (1 + z) * std::sin(a), z + (k == 20 ? 0.5 * std::cos(a) : 0)};
+    }));
+    for (const Opening& opening : result.surface.openings) EXPECT_EQ(opening.axis, opening.normal);
 }
 
 TEST(Opening, NotPlanarIsExtendedToAPlane) {

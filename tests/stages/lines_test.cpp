@@ -43,6 +43,29 @@ TEST(Centerlines, TargetInAnotherComponentIsReportedAndTheOthersSurvive) {
     EXPECT_EQ(count, 1U);
 }
 
+TEST(Centerlines, InletThatNoOutletIsNearestToIsReported) {
+    const Phantom phantom = tube();
+    const Surface surface = test::closed_surface(phantom);
+    const Vec3 outlet = on_axis(phantom, 0.9);
+    const test::Traced two = test::trace_closed(surface, {on_axis(phantom, 0.1), on_axis(phantom, 0.3)}, {outlet});
+    EXPECT_EQ(two.lines.line_count(), 1U);
+    EXPECT_TRUE(test::has_finding(two.findings, "inlet_without_line"));
+    const test::Traced one = test::trace_closed(surface, {on_axis(phantom, 0.1)}, {outlet});
+    EXPECT_FALSE(test::has_finding(one.findings, "inlet_without_line"));
+}
+
+TEST(Centerlines, BlindVesselWithoutALineIsReported) {
+    // Of the tube of 16 radii, what lies beyond the line's end is 12 or 7 radii long.
+    const Phantom phantom = tube();
+    const Surface surface = test::closed_surface(phantom);
+    const auto is_reported = [&](double end) {
+        const test::Traced traced = test::trace_closed(surface, {on_axis(phantom, 0.1)}, {on_axis(phantom, end)});
+        return test::has_finding(traced.findings, "wall_without_line");
+    };
+    EXPECT_TRUE(is_reported(0.25));
+    EXPECT_FALSE(is_reported(0.56));
+}
+
 TEST(Centerlines, WithoutAnyLineTheModelFails) {
     const Phantom here = tube(), there = tube({100, 0, 0});
     const Surface both = test::disjoint_union(test::closed_surface(here), test::closed_surface(there));

@@ -97,6 +97,26 @@ TEST(Pipeline, JitteredBentTubesGiveTheirAxis) {
     }
 }
 
+TEST(Pipeline, ObliqueEndsOfATubeDoNotMoveItsAxis) {
+    PhantomOptions options;
+    options.jitter = 0.2;
+    for (const double slope : {0.2, 0.4, 0.6, 0.9, 1.5}) {
+        TriangleSoup soup = to_soup(make_phantom(options));
+        for (Vec3& p : soup.points) p.z += slope * p.x;
+        const ModelRecord record = test::run_pipeline(soup);
+        ASSERT_TRUE(record.centerlines) << slope;
+        const Centerlines& lines = *record.centerlines;
+        // What the curved surface leaves of a tube of 40 points around.
+        const double tolerance = 2e-3 * options.a;
+        for (std::size_t i = 0; i < lines.points.size(); ++i) {
+            EXPECT_LT(std::hypot(lines.points[i].x, lines.points[i].y), tolerance) << slope << " at " << i;
+            EXPECT_NEAR(lines.radius[i], options.a, tolerance) << slope << " at " << i;
+        }
+        // The centres of the uneven openings are that far from the axis, and their planes are oblique.
+        EXPECT_NEAR(lines.abscissa.back(), options.length, 1e-2 * options.a);
+    }
+}
+
 TEST(Pipeline, HairpinOfANarrowGapIsFollowedAround) {
     for (const double jitter : {0.0, 0.2})
         for (const double bend_radius : {5.3, 6.0}) {
