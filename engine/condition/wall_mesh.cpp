@@ -1,6 +1,7 @@
 #include "engine/condition/wall_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 // Helpers that all steps of conditioning share.
 
@@ -15,7 +16,8 @@ double bounding_diagonal(const std::vector<Vec3>& points) {
             high[axis] = std::max(high[axis], p[axis]);
         }
     }
-    return distance(low, high);
+    const Vec3 extent = high - low;
+    return std::hypot(extent.x, extent.y, extent.z);  // squares of the extents of a tiny surface vanish
 }
 
 std::vector<std::uint32_t> drop_unused_vertices(WallMesh& wall) {

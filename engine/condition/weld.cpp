@@ -148,6 +148,10 @@ WallMesh weld_soup(const TriangleSoup& soup, double tolerance, bool drop_faces, 
     for (std::size_t v = 0; v < vertices; ++v)
         if (used[v]) used_points.push_back(soup.points[v]);
     const double diagonal = bounding_diagonal(used_points);
+    if (diagonal > 0 && diagonal < 1 / kLargestCoordinate)
+        refuse(ErrorCode::kBadCoordinate, "the surface is " + short_text(diagonal) + " across, below the limit of " +
+                                              short_text(1 / kLargestCoordinate) +
+                                              "; give it in another unit or with another scale");
 
     const std::vector<std::uint32_t> kept = lowest_equal(soup.points, used, tolerance * diagonal, diagonal);
     WallMesh wall;

@@ -12,7 +12,7 @@ namespace lumenline {
 /// note that counts them.
 /// @param drop_faces  false: refuse such triangles
 /// @throws StageError kNoSurface when nothing is left, kBadCoordinate for coordinates that are not finite or
-///         beyond 1e20, kTooLarge, kRepairOff
+///         beyond 1e20, or all within 1e-20 of each other, kTooLarge, kRepairOff
 /// @cost O(n log n) time unless more than a few vertices lie within the tolerance of one plane
 WallMesh weld_soup(const TriangleSoup& soup, double tolerance, bool drop_faces, StageContext& context);
 

@@ -51,7 +51,7 @@ TEST(Switch, OffRefusesWhatItWouldMend) {
     EXPECT_EQ(refusal(clean_tube(), options), "");
 }
 
-TEST(Coordinates, BeyondTheLimitAreRefused) {
+TEST(Coordinates, BeyondTheLimitsAreRefused) {
     for (const double bad : {1.1e20, -1e30, 1e300, std::numeric_limits<double>::infinity()}) {
         TriangleSoup soup = clean_tube();
         soup.points[100].y = bad;
@@ -59,6 +59,9 @@ TEST(Coordinates, BeyondTheLimitAreRefused) {
     }
     // A whole model of that size has nothing wrong with it, and one just below the limit neither.
     EXPECT_EQ(refusal(mapped(clean_tube(), [](Vec3 p) { return 1e18 * p; })), "");
+    EXPECT_EQ(refusal(mapped(clean_tube(), [](Vec3 p) { return 1e-18 * p; })), "");
+    EXPECT_EQ(refusal(mapped(clean_tube(), [](Vec3 p) { return 1e-24 * p; })), "bad_coordinate");
+    EXPECT_EQ(refusal(mapped(clean_tube(), [](Vec3 p) { return 1e-300 * p; })), "bad_coordinate");
 }
 
 TEST(Specks, BelowTheShareAreRemoved) {
