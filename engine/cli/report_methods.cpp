@@ -94,8 +94,7 @@ std::vector<std::string> methods_text(const MethodsFacts& facts) {
 std::vector<std::string> methods_references() {
     return {
         "Antiga L, Ene-Iordache B, Remuzzi A. Centerline computation and geometric analysis of branching tubular "
-        "surfaces "
-        "with application to blood vessel modeling. 2003.",
+        "surfaces with application to blood vessel modeling. WSCG 2003.",
         "Antiga L, Steinman DA. Robust and objective decomposition and mapping of bifurcating vessels. IEEE Trans Med "
         "Imaging 2004; 23: 704.",
         "Wang W, J\xC3\xBCttler B, Zheng D, Liu Y. Computation of rotation minimizing frames. ACM Trans Graph 2008; "
