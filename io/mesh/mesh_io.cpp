@@ -1,21 +1,26 @@
 // Finds the format of a surface file and reads it. The file is read once into memory; the parsers and the SHA-256
-// see the same bytes; a file that is written to or replaced meanwhile is refused. The content decides on the format, because
+// see the same bytes; a file that is written to or replaced meanwhile is refused. Since a write stamps the file when it
+// begins, one that was stamped just now is looked at again after a moment. The content decides on the format, because
 // extensions lie and because a binary STL file may begin with any word; only OBJ has no mark of its own and goes by its
 // extension.
 
 #include "io/mesh/mesh_io.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string_view>
+#include <thread>
 
 #include "io/mesh/formats.h"
 #include "io/mesh/sha256.h"
@@ -90,6 +95,30 @@ FileVersion version_of(std::FILE* file) {
             status.st_ctim.tv_nsec};
 }
 
+/// How long ago a file must have been stamped for one reading to do: the call that stamped it may still be writing.
+constexpr std::chrono::milliseconds kRest{50};
+
+bool is_at_rest(std::FILE* file) {
+    struct stat status {};
+    if (::fstat(::fileno(file), &status) != 0) return false;
+    const std::chrono::nanoseconds stamped =
+        std::chrono::seconds(status.st_ctim.tv_sec) + std::chrono::nanoseconds(status.st_ctim.tv_nsec);
+    return std::chrono::system_clock::now().time_since_epoch() - stamped > kRest;
+}
+
+/// Whether the file still holds what was read of it.
+bool still_holds(std::FILE* file, std::string_view read) {
+    std::array<char, 1 << 16> block{};
+    for (std::size_t at = 0; at < read.size();) {
+        const ssize_t got = ::pread(::fileno(file), block.data(), block.size(), static_cast<off_t>(at));
+        if (got <= 0 || read.substr(at, static_cast<std::size_t>(got)) !=
+                            std::string_view(block.data(), static_cast<std::size_t>(got)))
+            return false;
+        at += static_cast<std::size_t>(got);
+    }
+    return true;
+}
+
 Bytes read_bytes(const std::string& path, const std::string& name) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -101,13 +130,15 @@ Bytes read_bytes(const std::string& path, const std::string& name) {
     const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
     if (!file) fail_unreadable(name, "it cannot be opened (" + std::string(std::strerror(errno)) + ")");
     const FileVersion before = version_of(file.get());
+    const bool rested = is_at_rest(file.get());
     Bytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
     const std::size_t got = std::fread(bytes.data.get(), 1, size, file.get());
     if (got != size || std::fgetc(file.get()) != EOF || std::ferror(file.get()) != 0) {
         fail_unreadable(name, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
                                   " or the file changed meanwhile");
     }
-    if (version_of(file.get()) != before)
+    if (!rested) std::this_thread::sleep_for(kRest);
+    if (version_of(file.get()) != before || !(rested || still_holds(file.get(), {bytes.data.get(), size})))
         fail_unreadable(name, "it changed while it was read: run again when it is complete");
     return bytes;
 }
