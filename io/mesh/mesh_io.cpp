@@ -16,11 +16,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <thread>
 
 #include "io/mesh/formats.h"
 #include "io/mesh/sha256.h"
@@ -137,7 +137,10 @@ Bytes read_bytes(const std::string& path, const std::string& name) {
         fail_unreadable(name, "reading stopped at byte " + std::to_string(got) + " of " + std::to_string(size) +
                                   " or the file changed meanwhile");
     }
-    if (!rested) std::this_thread::sleep_for(kRest);
+    if (!rested) {
+        const timespec rest{0, std::chrono::nanoseconds(kRest).count()};
+        ::nanosleep(&rest, nullptr);
+    }
     if (version_of(file.get()) != before || !(rested || still_holds(file.get(), {bytes.data.get(), size})))
         fail_unreadable(name, "it changed while it was read: run again when it is complete");
     return bytes;
