@@ -4,6 +4,7 @@
 #include "engine/trace/coverage.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct Ball {
     double radius = 0;
 };
 
-/// Points of the lines at most about a radius apart.
+/// Points of the lines at most about a radius apart, by ascending x.
 std::vector<Ball> balls_along(const Centerlines& lines) {
     std::vector<Ball> balls;
     for (std::size_t line = 0; line < lines.line_count(); ++line) {
@@ -34,6 +35,7 @@ std::vector<Ball> balls_along(const Centerlines& lines) {
             next = lines.abscissa[i] + lines.radius[i];
         }
     }
+    std::stable_sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.centre.x < b.centre.x; });
     return balls;
 }
 
@@ -41,11 +43,21 @@ std::vector<Ball> balls_along(const Centerlines& lines) {
 double radii_from_lines(const std::vector<Ball>& balls, Vec3 x, double radius) {
     const Ball* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    for (const Ball& ball : balls)
+    const auto may_be_near = [&](const Ball& ball) {
+        const double across = ball.centre.x - x.x;
+        if (across * across >= least) return false;
         if (const double d = squared_norm(ball.centre - x); d < least) {
             least = d;
             nearest = &ball;
         }
+        return true;
+    };
+    const auto middle = std::lower_bound(balls.begin(), balls.end(), x.x,
+                                         [](const Ball& ball, double at) { return ball.centre.x < at; });
+    for (auto above = middle; above != balls.end() && may_be_near(*above); ++above) {
+    }
+    for (auto below = middle; below != balls.begin() && may_be_near(*std::prev(below)); --below) {
+    }
     return distance(nearest->centre, x) / std::max(radius, nearest->radius);
 }
 
